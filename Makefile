@@ -1,0 +1,148 @@
+# Fieldling: `make help` lists what can be asked for.
+#
+# This file holds the rules; what is built is said by the fragments it includes (sim/*.mk, boards/*/board.mk,
+# host_tests/*.mk). A fragment appends to these lists, paths from the top folder:
+#
+#   PROGRAMS     += fieldling-x         host program build/posix/fieldling-x (gcc alone must be enough)
+#     fieldling-x_SRC                   its C files
+#     fieldling-x_CFLAGS, _LDLIBS       own options, optional
+#     fieldling-x_DEFAULTS              C files of default callbacks: linked from an archive, so that a function
+#                                       of the same name in _SRC takes the place of the default; optional
+#   UNIT_TESTS   += test_x              host_tests/test_x.c with Unity -> build/test/test_x, and build/asan/test_x
+#     test_x_SRC                        the files under test
+#     test_x_CFLAGS, _LDLIBS, _DEFAULTS as above; test_x_TIMEOUT [s]
+#   SCRIPT_TESTS += host_tests/x.py     ends with Unity's summary line; finds its programs in $FIELDLING_BIN;
+#     host_tests/x.py_TIMEOUT [s]       run with the gcc programs and again with the sanitized ones
+#   SCRIPT_TESTS_ONCE += host_tests/x.sh  the same for a script that runs no host program of ours: once
+#   BOARD_IMAGES += build/87c51fb/x.ihx   built by `make test`; the fragment has the rule
+#   STATIC       += a-target            run by `make check`
+#   BENCHES      += bench-x             a target, run by `make bench`, one after the other
+#   SIZES        += size-x              a target, run by `make size`
+#   run-dp, run-modbus                  targets behind `make run PROTOCOL=...`
+#
+# Tests see TEST_FULL=1 in the environment when run by `make test`: then they use their big random counts.
+
+PROTOCOL ?= dp
+PYTHON   := build/venv/bin/python
+
+.DEFAULT_GOAL := all
+.DELETE_ON_ERROR:
+.SUFFIXES:
+.SECONDARY:
+
+# ---- how a C file is compiled, by variant: posix = programs, test = unit tests, asan = both, with clang ----
+
+WARNINGS := -std=c99 -Wall -Wextra -Wconversion -Werror -D_POSIX_C_SOURCE=200809L -D_DEFAULT_SOURCE
+INCLUDES := -I. -Ifirmware -Ifirmware/hal/posix
+SANITIZE := -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+
+posix_CC     := gcc
+posix_CFLAGS := -O2 -g
+test_CC      := gcc
+test_CFLAGS  := -O1 -g -Ibuild/unity
+asan_CC      := clang
+asan_CFLAGS  := -O1 -g -Ibuild/unity $(SANITIZE)
+asan_LDFLAGS := $(SANITIZE)
+
+include $(sort $(wildcard sim/*.mk boards/*/board.mk host_tests/*.mk))
+
+UNITY := build/unity/unity.c
+
+# One short line per file; `make V=1` shows the commands.
+say = $(if $(V),,@echo "  $1  $2" && )
+
+# $(call remember,FILE,TEXT): rewrites FILE when TEXT has changed; what depends on FILE follows changed options.
+remember = $(if $(filter-out x$(strip $(file <$1))x,x$(strip $2)x),$(shell mkdir -p $(dir $1))$(file >$1,$2))
+
+# $(call objects,VARIANT,NAME,SOURCES): programs without own options share their objects.
+objset  = $(if $(strip $($1_CFLAGS)),$1,common)
+objects = $(patsubst %.c,build/$1/obj/$(call objset,$2)/%.o,$3)
+
+define compile_rule # VARIANT SET OWN-OPTIONS
+$(call remember,build/$1/obj/$2/options,$($1_CC) $(WARNINGS) $(INCLUDES) $($1_CFLAGS) $3)
+build/$1/obj/$2/%.o: %.c build/$1/obj/$2/options
+	@mkdir -p $$(@D)
+	$$(call say,CC,$$@)$($1_CC) $(WARNINGS) $3 $(INCLUDES) $($1_CFLAGS) -MMD -MP -c $$< -o $$@
+build/$1/obj/$2/build/unity/%.o: build/unity/%.c
+	@mkdir -p $$(@D)
+	$$(call say,CC,$$@)$($1_CC) -w $($1_CFLAGS) -c $$< -o $$@
+endef
+
+define link_rule # VARIANT NAME SOURCES
+$(call remember,build/$1/obj/$2.parts,$3 : $($2_DEFAULTS) : $($2_LDLIBS))
+build/$1/$2: $(call objects,$1,$2,$3) $(if $($2_DEFAULTS),build/$1/obj/$2.a) build/$1/obj/$2.parts
+	$$(call say,LD,$$@)$($1_CC) $($1_LDFLAGS) $$(filter %.o %.a,$$^) $($2_LDLIBS) -o $$@
+build/$1/obj/$2.a: $(call objects,$1,$2,$($2_DEFAULTS)) build/$1/obj/$2.parts
+	$$(call say,AR,$$@)rm -f $$@ && ar rcs $$@ $$(filter %.o,$$^)
+-include $(patsubst %.o,%.d,$(call objects,$1,$2,$3 $($2_DEFAULTS)))
+endef
+
+test_sources = $(UNITY) host_tests/$1.c $($1_SRC)
+
+$(foreach v,posix test asan,$(eval $(call compile_rule,$v,common,)))
+$(foreach p,$(PROGRAMS),$(foreach v,posix asan,\
+  $(if $(strip $($p_CFLAGS)),$(eval $(call compile_rule,$v,$p,$($p_CFLAGS))))\
+  $(eval $(call link_rule,$v,$p,$($p_SRC)))))
+$(foreach t,$(UNIT_TESTS),$(foreach v,test asan,\
+  $(if $(strip $($t_CFLAGS)),$(eval $(call compile_rule,$v,$t,$($t_CFLAGS))))\
+  $(eval $(call link_rule,$v,$t,$(call test_sources,$t)))))
+
+# ---- what a user asks for --------------------------------------------------------------------------------
+
+RUN_PY = $(PYTHON) host_tests/run.py
+# Sub-makes build on both cores unless the user said something else.
+J = $(if $(findstring -j,$(MAKEFLAGS)),,-j2)
+# name=seconds for tests that say so.
+timed = $(foreach t,$1,$2$t$(if $($t_TIMEOUT),=$($t_TIMEOUT)))
+
+POSIX_PROGRAMS := $(addprefix build/posix/,$(PROGRAMS))
+ASAN_PROGRAMS  := $(addprefix build/asan/,$(PROGRAMS))
+TEST_PROGRAMS  := $(addprefix build/test/,$(UNIT_TESTS))
+ASAN_TESTS     := $(addprefix build/asan/,$(UNIT_TESTS))
+
+.PHONY: all setup run test check bench size clean help build-tests build-asan boards static \
+        $(BENCHES) $(SIZES) $(STATIC)
+
+all: $(POSIX_PROGRAMS)
+
+setup:
+	@sh host_tests/setup.sh
+
+run: setup
+	@$(MAKE) --no-print-directory $J all
+	@$(MAKE) --no-print-directory run-$(PROTOCOL)
+
+build-tests: $(POSIX_PROGRAMS) $(TEST_PROGRAMS)
+build-asan: $(ASAN_PROGRAMS) $(ASAN_TESTS)
+boards: $(BOARD_IMAGES)
+static: $(STATIC)
+
+test: setup
+	@$(MAKE) --no-print-directory $J build-tests build-asan boards static
+	@TEST_FULL=1 $(RUN_PY) $(call timed,$(UNIT_TESTS),build/test/) $(call timed,$(UNIT_TESTS),build/asan/) \
+	    $(call timed,$(SCRIPT_TESTS_ONCE)) $(call timed,$(SCRIPT_TESTS)) --asan $(call timed,$(SCRIPT_TESTS))
+
+check:
+	@test -d build/unity && test -x $(PYTHON) || sh host_tests/setup.sh
+	@$(MAKE) --no-print-directory $J build-tests static
+	@$(RUN_PY) $(call timed,$(UNIT_TESTS),build/test/)
+
+bench: all
+	@for b in $(BENCHES); do $(MAKE) --no-print-directory $$b || exit 1; done
+
+size: all
+	@for s in $(SIZES); do $(MAKE) --no-print-directory $$s || exit 1; done
+	@size $(POSIX_PROGRAMS)
+
+clean:
+	rm -rf build
+
+help:
+	@echo "make                     every host program into build/posix/ (needs gcc, nothing else)"
+	@echo "make setup               install what tests and demos need; says what it does, quick when all is there"
+	@echo "make run PROTOCOL=dp     live demonstration: a station and a master on a simulated bus (dp, modbus)"
+	@echo "make check               unit tests, 8051 and Cortex-M compile, static checks: under a minute"
+	@echo "make test                everything: all boards, sanitizers, foreign masters; ends in N passed, N failed"
+	@echo "make bench               measured figures on this machine"
+	@echo "make size                code and RAM of programs and images"
+	@echo "make clean               remove build/"

@@ -1,0 +1,73 @@
+#!/bin/sh
+# Install what `make run`, `make check` and `make test` need; `make` alone needs gcc only.
+# Says what it installs, does nothing when all is there. Everything but the apt packages goes below build/.
+set -eu
+cd "$(dirname "$0")/.."
+
+say() { echo "setup: $*"; }
+
+# ---- packages of the distribution -------------------------------------------------------------------------
+PACKAGES="gcc libc6-dev make python3 python3-venv
+sdcc sdcc-ucsim clang clang-format libclang-rt-14-dev valgrind socat pkg-config
+gcc-arm-none-eabi libnewlib-arm-none-eabi libmodbus-dev mbpoll"
+
+install_packages() {
+    missing=
+    for package in $PACKAGES; do
+        status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
+        [ "$status" = installed ] || missing="$missing $package"
+    done
+    [ -n "$missing" ] || return 0
+    say "apt-get install$missing"
+    sudo=
+    [ "$(id -u)" = 0 ] || sudo=sudo
+    # shellcheck disable=SC2086 # a list
+    DEBIAN_FRONTEND=noninteractive $sudo apt-get install -y -q --no-install-recommends $missing \
+        >build/setup-apt.log 2>&1 && return 0
+    say "package lists are old: apt-get update"
+    $sudo apt-get update -q >>build/setup-apt.log 2>&1 || true
+    # shellcheck disable=SC2086
+    DEBIAN_FRONTEND=noninteractive $sudo apt-get install -y -q --no-install-recommends $missing \
+        >>build/setup-apt.log 2>&1 && return 0
+    tail -20 build/setup-apt.log >&2
+    say "could not install:$missing" >&2
+    exit 1
+}
+
+# ---- Python packages, pinned, in build/venv ---------------------------------------------------------------
+install_python() {
+    [ -x build/venv/bin/python ] || { say "python3 -m venv build/venv"; python3 -m venv build/venv; }
+    cmp -s host_tests/requirements.txt build/venv/installed.txt && return 0
+    say "pip install $(grep -v '^#' host_tests/requirements.txt | tr '\n' ' ')"
+    build/venv/bin/pip install -q --disable-pip-version-check -r host_tests/requirements.txt
+    cp host_tests/requirements.txt build/venv/installed.txt
+}
+
+# ---- Unity, the C test framework: its sources travel in this Python package --------------------------------
+UNITY="pytest-unity==0.1.0 --hash=sha256:cd3ceb4aeb4f7866f935957f91874999d8ae13ff014684464ade0b7071e28298"
+
+install_unity() {
+    [ -f build/unity/unity.c ] && return 0
+    say "Unity from the source distribution of ${UNITY%% *}"
+    rm -rf build/unity.part
+    mkdir -p build/unity.part
+    echo "$UNITY" >build/unity.part/requirement.txt
+    build/venv/bin/pip download -q --disable-pip-version-check --no-deps --no-binary :all: --require-hashes \
+        -d build/unity.part -r build/unity.part/requirement.txt
+    tar -xzf build/unity.part/pytest_unity-0.1.0.tar.gz -C build/unity.part --strip-components=3 \
+        pytest_unity-0.1.0/vendor/unity/src
+    rm -rf build/unity
+    mkdir -p build/unity
+    mv build/unity.part/src/unity.c build/unity.part/src/unity.h build/unity.part/src/unity_internals.h build/unity/
+    rm -rf build/unity.part
+}
+
+mkdir -p build
+if command -v apt-get >/dev/null 2>&1; then
+    install_packages
+else
+    say "no apt-get here: please provide by hand: $(echo "$PACKAGES" | tr '\n' ' ')"
+fi
+install_python
+install_unity
+say "ready"
