@@ -1,0 +1,225 @@
+#include "phy_uart.h"
+#include "hal/hal.h"
+
+#define T_SDR_DEFAULT_TBIT 11u
+
+struct phy_rate {
+    uint32_t bit_per_s;
+    uint16_t max_t_sdr; /* T_bit */
+};
+
+static const CODE struct phy_rate rates[PHY_BAUDS] = {
+    [PHY_BAUD_9K6] = {9600u, 60u},     [PHY_BAUD_19K2] = {19200u, 60u},   [PHY_BAUD_93K75] = {93750u, 60u},
+    [PHY_BAUD_187K5] = {187500u, 60u}, [PHY_BAUD_500K] = {500000u, 100u}, [PHY_BAUD_38K4] = {38400u, 60u},
+    [PHY_BAUD_1M5] = {1500000u, 150u}, [PHY_BAUD_45K45] = {45450u, 60u},  [PHY_BAUD_3M] = {3000000u, 250u},
+    [PHY_BAUD_6M] = {6000000u, 450u},  [PHY_BAUD_12M] = {12000000u, 800u},
+};
+
+HOT volatile struct phy_rx phy_rx;
+
+/* Invariant: at most one of `waiting` (an answer waits for T_SDR) and `sending` is set. */
+static HOT volatile struct {
+    bool waiting;
+    bool sending;
+    bool untimed;    /* the line cannot show silence     */
+    bool transmitter; /* Transmitter_output is enabled    */
+} line;
+
+static hal_dur_t t_syn;
+static hal_dur_t t_sdr;
+static const uint8_t XDATA *answer;
+static uint8_t answer_len;
+
+static uint8_t value_of[PHY_VARIABLES];
+static uint8_t min_t_sdr;
+
+#define BAUD_NONE 0xFFu
+
+/* ---- octets ---------------------------------------------------------------------------------------------- */
+
+void phy_gather_isr(uint8_t n) IN_ISR
+{
+    phy_rx.left = n;
+}
+
+void phy_deaf_isr(void) IN_ISR
+{
+    phy_rx.left = 0;
+}
+
+bool phy_telegram_end_isr(void) IN_ISR
+{
+    phy_rx.left = 0;
+    return line.untimed;
+}
+
+void phy_answer_isr(const uint8_t XDATA *frame, uint8_t n) IN_ISR
+{
+    if (!line.transmitter)
+        return;
+    answer = frame;
+    answer_len = n;
+    line.waiting = true;
+    hal_silence(t_sdr);
+}
+
+static void cancel_answer_isr(void) IN_ISR
+{
+    line.waiting = false;
+    hal_silence(t_syn);
+    phy_cancelled_ind_isr();
+}
+
+void line_octet_isr(uint8_t octet, uint8_t err) IN_ISR
+{
+    if (line.waiting)
+        cancel_answer_isr();
+    if (err) {
+        phy_rx.left = 0;
+        phy_fault_ind_isr(err);
+        return;
+    }
+    if (phy_rx.left == 0)
+        return;
+    *phy_rx.at = octet;
+    phy_rx.at++;
+    phy_rx.sum = (uint8_t)(phy_rx.sum + octet);
+    if (--phy_rx.left == 0)
+        phy_chunk_ind_isr();
+}
+
+void line_silence_isr(void) IN_ISR
+{
+    if (line.waiting) {
+        line.waiting = false;
+        line.sending = true;
+        phy_rx.left = 0;
+        hal_send(answer, answer_len);
+    } else if (!line.sending) {
+        phy_syn_ind_isr();
+    }
+}
+
+/* After our own answer the line has been silent for nobody yet: a request needs T_SYN, unless none can be seen. */
+void line_sent_isr(void) IN_ISR
+{
+    line.sending = false;
+    hal_silence(t_syn);
+    if (line.untimed)
+        phy_syn_ind_isr();
+}
+
+/* ---- management ------------------------------------------------------------------------------------------- */
+
+static void set_times(void)
+{
+    hal_dur_t syn = hal_tbit(PHY_T_SYN_TBIT);
+    hal_dur_t sdr = hal_tbit(min_t_sdr);
+    uint8_t irq = hal_irq_save();
+
+    t_syn = syn;
+    t_sdr = sdr;
+    hal_irq_restore(irq);
+}
+
+/* Open the line at the rate and loop in value_of[]; PHY_NO leaves it as it was. */
+static uint8_t open_line(uint8_t baud, uint8_t loop)
+{
+    uint8_t format = HAL_8E1;
+    uint8_t kind;
+    uint8_t irq;
+
+    if (loop == PHY_ENABLED)
+        format |= HAL_LOOP;
+    irq = hal_irq_save();
+    kind = hal_line_open(phy_bit_per_s(baud), format);
+    if (kind != HAL_LINE_NO) {
+        line.untimed = kind == HAL_LINE_UNTIMED;
+        line.waiting = false;
+        line.sending = false;
+        phy_rx.left = 0;
+        set_times();
+        hal_silence(t_syn);
+    }
+    hal_irq_restore(irq);
+    return kind == HAL_LINE_NO ? PHY_NO : PHY_OK;
+}
+
+void phy_reset(void)
+{
+    uint8_t irq = hal_irq_save();
+
+    hal_silence(0);
+    phy_rx.left = 0;
+    line.waiting = false;
+    line.transmitter = true;
+    value_of[PHY_TRANSMITTER_OUTPUT] = PHY_ENABLED;
+    value_of[PHY_RECEIVED_SIGNAL_SOURCE] = PHY_PRIMARY;
+    value_of[PHY_LOOP] = PHY_DISABLED;
+    value_of[PHY_BAUD_RATE] = BAUD_NONE;
+    value_of[PHY_MEDIUM_RED] = PHY_NO_REDUNDANCY;
+    min_t_sdr = T_SDR_DEFAULT_TBIT;
+    hal_irq_restore(irq);
+}
+
+static uint8_t set_loop(uint8_t value)
+{
+    if (value_of[PHY_BAUD_RATE] == BAUD_NONE)
+        return PHY_OK;
+    return open_line(value_of[PHY_BAUD_RATE], value);
+}
+
+uint8_t phy_set_value(uint8_t variable, uint8_t value)
+{
+    static const CODE uint8_t values[PHY_VARIABLES] = {
+        [PHY_TRANSMITTER_OUTPUT] = PHY_ENABLED + 1,   [PHY_RECEIVED_SIGNAL_SOURCE] = PHY_RANDOM + 1,
+        [PHY_LOOP] = PHY_ENABLED + 1,                 [PHY_BAUD_RATE] = PHY_BAUDS,
+        [PHY_MEDIUM_RED] = PHY_BUS_B_HIGH + 1,
+    };
+    uint8_t status = PHY_OK;
+
+    if (variable >= PHY_VARIABLES || value >= values[variable])
+        return PHY_IV;
+    switch (variable) {
+    case PHY_TRANSMITTER_OUTPUT:
+        line.transmitter = value == PHY_ENABLED;
+        break;
+    case PHY_LOOP:
+        status = set_loop(value);
+        break;
+    case PHY_BAUD_RATE:
+        status = open_line(value, value_of[PHY_LOOP]);
+        break;
+    default: /* one bus, one receiver */
+        if (value != 0)
+            status = PHY_NO;
+        break;
+    }
+    if (status == PHY_OK && value_of[variable] != value) {
+        value_of[variable] = value;
+        phy_event_ind(variable, value);
+    }
+    return status;
+}
+
+uint8_t phy_read_value(uint8_t variable)
+{
+    return variable < PHY_VARIABLES ? value_of[variable] : 0xFFu;
+}
+
+void phy_set_min_t_sdr(uint8_t tbit)
+{
+    min_t_sdr = tbit;
+    if (value_of[PHY_BAUD_RATE] != BAUD_NONE)
+        set_times();
+}
+
+uint32_t phy_bit_per_s(uint8_t baud)
+{
+    return baud < PHY_BAUDS ? rates[baud].bit_per_s : 0;
+}
+
+uint16_t phy_max_t_sdr(uint8_t baud)
+{
+    return baud < PHY_BAUDS ? rates[baud].max_t_sdr : 0;
+}
