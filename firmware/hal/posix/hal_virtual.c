@@ -365,7 +365,7 @@ void hal_init(void)
 uint8_t hal_irq_save(void)
 {
     main_only("hal_irq_save");
-    const uint8_t state = vm.masked ? 0 : HAL_IRQ_ON;
+    const uint8_t state = (uint8_t)!vm.masked; /* HAL_IRQ_ON is 1 */
     vm.masked = true;
     return state;
 }
