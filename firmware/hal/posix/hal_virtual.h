@@ -10,7 +10,7 @@
 #ifndef FIELDLING_HAL_VIRTUAL_H
 #define FIELDLING_HAL_VIRTUAL_H
 
-#include "hal.h"
+#include "hal/hal.h"
 
 /* One tick is 1/576 us: every bit time of PROFIBUS (9600 bit/s ... 12 Mbit/s) and of Modbus is a whole number
  * of ticks. 45.45 kbit/s, asked for as 45450, is 12 MHz / 264. */

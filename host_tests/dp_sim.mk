@@ -1,0 +1,4 @@
+# Tests of the simulated wire, and of the DP station on it, in virtual time.
+
+UNIT_TESTS += test_hal_virtual
+test_hal_virtual_SRC = $(HAL_VIRTUAL)
