@@ -214,6 +214,11 @@ void phy_set_min_t_sdr(uint8_t tbit)
         set_times();
 }
 
+uint8_t phy_min_t_sdr(void)
+{
+    return min_t_sdr;
+}
+
 uint32_t phy_bit_per_s(uint8_t baud)
 {
     return baud < PHY_BAUDS ? rates[baud].bit_per_s : 0;

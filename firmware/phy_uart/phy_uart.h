@@ -52,6 +52,7 @@ uint8_t phy_read_value(uint8_t variable);
 
 /* Wait at least this long [T_bit, 11..255] from the last bit of a request to the first bit of the answer. */
 void phy_set_min_t_sdr(uint8_t tbit);
+uint8_t phy_min_t_sdr(void);
 
 /* Bit rate [bit/s] and max_T_SDR [T_bit] of a Baud_rate code, 0 for an unknown code. Source of max_T_SDR: EN 50170-2
  * part 8; spec A9. */

@@ -1,0 +1,200 @@
+/* Fieldbus data link, responder (passive station): telegrams, FCB, service access points, answers.
+ *
+ * Layer    phy_uart -> fdl_rx (octets to telegram) -> [fdl] -> ddlm; fdl_tx builds answers; fma manages
+ * Context  a telegram is received, checked and answered in interrupt context, from buffers prepared before:
+ *          T_SDR never depends on the main loop. Indications for the main loop wait in boxes until fdl_poll().
+ * Source   EN 50170-2 part 3 (services), part 4 (protocol); spec A3, A4, D1, D2
+ *
+ * Buffers change hands by pointer; nothing is copied in an interrupt.
+ */
+#ifndef FIELDLING_FDL_H
+#define FIELDLING_FDL_H
+
+#include "config.h"
+
+/* ---- telegrams (EN 50170-2 part 4, 4.7.1) ------------------------------------------------------------------ */
+
+#define FDL_SD1 0x10u /* 10 DA SA FC FCS 16                       */
+#define FDL_SD2 0x68u /* 68 LE LEr 68 DA SA FC [DAE SAE] DU FCS 16 */
+#define FDL_SD3 0xA2u /* A2 DA SA FC DU[8] FCS 16                 */
+#define FDL_SD4 0xDCu /* DC DA SA, the token                      */
+#define FDL_SC  0xE5u /* short acknowledge                        */
+#define FDL_ED  0x16u
+
+#define FDL_LE_MIN  4u   /* DA SA FC + one data octet */
+#define FDL_LE_MAX  249u /* DA SA FC + 246 data octets */
+#define FDL_SD3_DU  8u
+
+#define FDL_ADDRESS_EXT 0x80u /* in DA and SA: a SAP octet follows   */
+#define FDL_BROADCAST   127u  /* global address                      */
+#define FDL_UNADDRESSED 126u  /* a slave that has no address yet      */
+#define FDL_ALL         127u  /* Access: every station               */
+
+/* FC of a request: 0 1 FCB FCV function; of an answer: 0 0 station-type function. */
+#define FDL_FC_RESERVED 0x80u
+#define FDL_FC_REQUEST  0x40u
+#define FDL_FC_FCB      0x20u
+#define FDL_FC_FCV      0x10u
+#define FDL_FC_FUNCTION 0x0Fu
+enum fdl_request { FDL_SDA_LOW = 3, FDL_SDN_LOW, FDL_SDA_HIGH, FDL_SDN_HIGH, FDL_STATUS = 9, FDL_SRD_LOW = 12, FDL_SRD_HIGH, FDL_IDENT, FDL_LSAP_STATUS };
+enum fdl_answer { FDL_OK = 0, FDL_UE = 1, FDL_RR = 2, FDL_RS = 3, FDL_DL = 8, FDL_NR = 9, FDL_DH = 10, FDL_RDL = 12, FDL_RDH = 13 };
+
+#define FDL_SAP_MAX 62u /* 63 is the global access address, which no slave activates */
+#define FDL_SAP_NIL 64u /* our choice: number of the default SAP, the one without address extension */
+#define FDL_SAP_NUMBERS 65u
+
+/* Services a SAP may offer; one bit each. SRD covers CSRD: its poll frames are SRD telegrams. */
+#define FDL_SDA 0x01u
+#define FDL_SDN 0x02u
+#define FDL_SRD 0x04u
+
+/* ---- faults and counts --------------------------------------------------------------------------------------- */
+
+/* 16 bits each, wrap; read them with fdl_read_counters(). */
+struct fdl_counters {
+    uint16_t sd_count;       /* good start delimiters (FMA variable SD_count)                          */
+    uint16_t sd_error_count; /* octets that are none where one was due (FMA variable SD_error_count)   */
+    uint16_t parity;         /* octet with wrong parity or stop bit                                    */
+    uint16_t overrun;        /* octet lost in the receiver                                             */
+    uint16_t gap;            /* T_SYN of silence inside a telegram                                     */
+    uint16_t format;         /* LE != LEr, LE out of range, no second SD2, no ED, unknown function     */
+    uint16_t checksum;       /* FCS                                                                    */
+    uint16_t foreign;        /* good telegrams for other stations, tokens, others' answers             */
+    uint16_t requests;       /* good requests to this station, broadcast included                      */
+    uint16_t retries;        /* of these: repeated by the master, answered again, not executed again   */
+    uint16_t answers;        /* given to PHY                                                           */
+    uint16_t cancelled;      /* of these: not sent, the line was not silent for T_SDR                  */
+    uint16_t refused;        /* answered RS, RR or UE                                                  */
+};
+
+/* What has been heard since the caller last cleared it; for time supervision in the main loop. */
+#define FDL_HEARD_ANY   0x01u /* an error-free SD1, SD2 or SD3 telegram, from anybody to anybody */
+#define FDL_HEARD_OWN   0x02u /* one addressed to this station                                   */
+#define FDL_HEARD_OWNER 0x04u /* one addressed to this station by the station set with fdl_watch() */
+
+/* Copies all counters. main. */
+void fdl_read_counters(struct fdl_counters XDATA *to);
+
+/* FDL_HEARD_* since the last call. main. */
+uint8_t fdl_heard(void);
+
+/* Whose telegrams count as FDL_HEARD_OWNER: 0..126, or FDL_ALL for nobody's. main. */
+void fdl_watch(uint8_t station);
+
+/* ---- main loop -------------------------------------------------------------------------------------------------- */
+
+/* All SAPs deactivated, counters and FCB state cleared, boxes emptied; answers from station address ts (0..126). main. */
+void fdl_reset(uint8_t ts);
+
+/* Change of station address TS (0..126), after an answer that is still to be sent. main. */
+void fdl_set_address(uint8_t ts);
+
+/* Hand the waiting indications to fdl_data_ind(), oldest first. main. */
+void fdl_poll(void);
+
+/* An indication that waits for the main loop: FDL_DATA.indication, FDL_DATA_REPLY.indication. */
+struct fdl_ind {
+    uint8_t service; /* FDL_SDA, FDL_SDN, FDL_SRD                           */
+    bool high;       /* priority of the request                             */
+    uint8_t dsap;    /* 0..62, FDL_SAP_NIL                                  */
+    uint8_t ssap;    /* 0..63, FDL_SAP_NIL                                  */
+    uint8_t sa;      /* station that asked                                  */
+    uint8_t len;     /* of lsdu                                             */
+    const uint8_t XDATA *lsdu;
+};
+
+/* Implemented by the layer above: one indication of a SAP activated with FDL_TO_MAIN. Valid until return. main. */
+void fdl_data_ind(const struct fdl_ind XDATA *ind);
+
+/* ---- service access points ------------------------------------------------------------------------------------------ */
+
+/* An update buffer: the answer to the next SRD. Three rooms turn: one was sent last (and is kept for the master's
+ * retry), one is ready, one is being written by the main loop.
+ * Invariant: sent, ready and spare are a permutation of 0, 1, 2. */
+#define FDL_ROOM_HEAD 9u /* 68 LE LEr 68 DA SA FC DAE SAE */
+#define FDL_ROOM_TAIL 2u /* FCS 16 */
+#define FDL_ROOM(lsdu_max) ((lsdu_max) + FDL_ROOM_HEAD + FDL_ROOM_TAIL)
+struct fdl_reply {
+    uint8_t XDATA *room[3]; /* FDL_ROOM(max) octets each */
+    uint8_t len[3];
+    uint8_t sum[3]; /* of the L_sdu, mod 256 */
+    uint8_t max;    /* longest L_sdu */
+    uint8_t sent;
+    uint8_t ready;
+    uint8_t spare;
+    bool valid;  /* there is something to answer with                             */
+    bool fresh;  /* ready is newer than sent                                       */
+    bool hold;   /* keep on answering with sent (DP: freeze)                       */
+    bool high;   /* answer DH instead of DL                                        */
+    bool single; /* Transmit = single: gone once sent                               */
+};
+
+/* Bind a reply to three rooms of FDL_ROOM(max) octets laid one after the other at rooms; empty. main. */
+void fdl_reply_init(struct fdl_reply XDATA *reply, uint8_t XDATA *rooms, uint8_t max);
+
+/* Who deals with a request once FDL has checked station, service and length (the standard's Indication_mode, widened). */
+enum fdl_handling {
+    FDL_ANSWER_ONLY, /* nobody: answered from the reply buffer                      */
+    FDL_TO_ISR,      /* fdl_ind_isr() decides, at once                              */
+    FDL_TO_MAIN,     /* acknowledged now, fdl_data_ind() later; RR when boxes are full */
+};
+
+struct fdl_sap {
+    uint8_t access;   /* 0..126, or FDL_ALL                            */
+    uint8_t services; /* FDL_SDA | FDL_SDN | FDL_SRD                   */
+    uint8_t max_len;  /* longest L_sdu of a request; longer: RR        */
+    uint8_t handling; /* enum fdl_handling                             */
+    struct fdl_reply XDATA *reply; /* or 0: an SRD is answered SC      */
+};
+
+/* Activate (or change) / deactivate SAP number 0..62 or FDL_SAP_NIL. False: no such SAP, or FDL_SAPS are active
+ * already / it was not active. Use fma.h from outside this folder. main. */
+bool fdl_sap_set(uint8_t sap, const struct fdl_sap XDATA *how);
+bool fdl_sap_clear(uint8_t sap);
+
+/* The active SAP's row, or 0. main, isr. */
+struct fdl_sap XDATA *fdl_sap_row_isr(uint8_t sap) IN_ISR;
+
+/* FDL_REPLY_UPDATE.request / .confirm -> enum fdl_l_status. The L_sdu is copied and will answer the next SRD to ssap,
+ * with priority FDL_UPDATE_LOW or _HIGH, once (FDL_UPDATE_SINGLE) or until updated again. main. */
+enum fdl_l_status { FDL_L_OK, FDL_L_LS /* SAP not active or without reply */, FDL_L_LR /* too long for its room */, FDL_L_IV };
+#define FDL_UPDATE_LOW    0x00u
+#define FDL_UPDATE_HIGH   0x01u
+#define FDL_UPDATE_SINGLE 0x02u
+uint8_t fdl_reply_update(uint8_t ssap, const uint8_t XDATA *lsdu, uint8_t len, uint8_t how);
+
+/* The same on a reply that need not be bound to an active SAP yet; len <= reply->max. main. */
+void fdl_reply_write(struct fdl_reply XDATA *reply, const uint8_t XDATA *lsdu, uint8_t len, uint8_t how);
+
+/* Make what was written last the next answer even under hold. isr. */
+void fdl_reply_release_isr(struct fdl_reply XDATA *reply) IN_ISR;
+
+/* ---- the request at hand, isr --------------------------------------------------------------------------------------- */
+
+struct fdl_req {
+    uint8_t service; /* FDL_SDA, FDL_SDN, FDL_SRD */
+    bool high;
+    uint8_t dsap;
+    uint8_t ssap;
+    uint8_t sa;
+    uint8_t len;              /* of lsdu; the telegram may have been longer: then it was refused */
+    uint8_t XDATA *lsdu;
+};
+extern HOT struct fdl_req fdl_req;
+
+/* Implemented by the layer above: fdl_req is for a SAP activated with FDL_TO_ISR. -> FDL_OK: answer from the reply
+ * buffer; FDL_RS, FDL_RR or FDL_UE: refuse. The value is ignored for SDN. isr. */
+uint8_t fdl_ind_isr(void) IN_ISR;
+
+/* Keep the L_sdu of fdl_req beyond this interrupt: FDL takes `exchange`, a buffer got from this function before, for
+ * the next telegram (0: one from its own stock, which has enough for FDL_KEPT_MAX kept). isr. */
+#define FDL_KEPT_MAX 3u
+uint8_t XDATA *fdl_keep_isr(uint8_t XDATA *exchange) IN_ISR;
+
+/* Give a kept buffer back for good. main (locks). */
+void fdl_give_back(uint8_t XDATA *buffer);
+
+/* Set the answers to the Ident request: four strings behind four length octets (EN 50170-2 part 3, FMA1/2 Ident). main. */
+void fdl_set_ident(const uint8_t XDATA *data, uint8_t len);
+
+#endif

@@ -1,0 +1,51 @@
+/* What the files of this folder share. */
+#ifndef FIELDLING_FDL_PRIV_H
+#define FIELDLING_FDL_PRIV_H
+
+#include "fdl/fdl.h"
+
+/* A telegram buffer: SD LE LEr SD | DA SA FC ... FCS ED. The body starts at a fixed place for every format. */
+#define FDL_BODY    4u
+#define FDL_BUF_LEN (FDL_BODY + FDL_BODY_MAX + 2u)
+
+extern struct fdl_counters XDATA fdl_counters;
+
+/* ---- fdl_rx: octets to telegram ---- */
+
+extern uint8_t XDATA *HOT fdl_rx_buf; /* telegram being received; replaced only from fdl_telegram_isr() */
+
+/* Forget what was being received. main with interrupts masked. */
+void fdl_rx_reset(void);
+
+/* Implemented by fdl.c: fdl_rx_buf holds a telegram with good FCS and ED, body octets 0..len-1 from DA on, len 3..249.
+ * Not whole: it was longer than FDL_BODY_MAX, only DA SA FC DAE SAE are to be trusted. */
+void fdl_telegram_isr(uint8_t len, bool whole) IN_ISR;
+
+/* Implemented by fdl.c: a token or a short acknowledge went by. */
+void fdl_other_isr(void) IN_ISR;
+
+/* ---- fdl_tx: answers ---- */
+
+struct fdl_frame {
+    const uint8_t XDATA *at;
+    uint8_t len;
+};
+extern struct fdl_frame XDATA fdl_tx; /* the answer built last */
+
+/* Build an answer to fdl_req from station ts into fdl_tx. */
+void fdl_tx_short_isr(void) IN_ISR;                           /* SC                                        */
+void fdl_tx_fixed_isr(uint8_t function) IN_ISR;               /* SD1                                       */
+void fdl_tx_status_isr(uint8_t function) IN_ISR;              /* SD1 that leaves the kept answer alone      */
+void fdl_tx_reply_isr(struct fdl_reply XDATA *reply) IN_ISR;  /* SD2, SD3, SD1 or SC, as the reply has it  */
+
+/* ---- fdl_sap: service access points ---- */
+
+void fdl_sap_reset(void);
+
+/* Update buffers that answer Ident, and LSAP status of SAP fdl_req.dsap (0: not active). */
+struct fdl_reply XDATA *fdl_ident_reply_isr(void) IN_ISR;
+struct fdl_reply XDATA *fdl_lsap_reply_isr(void) IN_ISR;
+
+extern HOT uint8_t fdl_ts; /* this station's address */
+
+#endif

@@ -1,0 +1,201 @@
+/* Service access points and their update buffers.
+ *
+ * Source   SAP activation, REPLY_UPDATE, LSAP status, Ident: EN 50170-2 part 3; spec A4, A5
+ */
+#include "fdl/fdl_priv.h"
+#include "hal/hal.h"
+
+#define NO_ROW 0xFFu
+
+static struct fdl_sap XDATA rows[FDL_SAPS];
+static uint8_t XDATA row_of[FDL_SAP_NUMBERS]; /* SAP number -> row, NO_ROW where not active */
+static uint8_t XDATA owner_of[FDL_SAPS];      /* row -> SAP number, NO_ROW where free        */
+
+#define IDENT_MAX 64u /* four length octets and four strings */
+#define LSAP_LEN  6u  /* Access, its extension, and an octet each for SDA SDN SRD CSRD */
+
+static uint8_t XDATA ident_rooms[3][FDL_ROOM(IDENT_MAX)];
+static uint8_t XDATA lsap_rooms[3][FDL_ROOM(LSAP_LEN)];
+static struct fdl_reply XDATA ident;
+static struct fdl_reply XDATA lsap;
+
+/* ---- activation ------------------------------------------------------------------------------------------------------ */
+
+void fdl_sap_reset(void)
+{
+    uint8_t i;
+
+    for (i = 0; i < FDL_SAP_NUMBERS; i++)
+        row_of[i] = NO_ROW;
+    for (i = 0; i < FDL_SAPS; i++)
+        owner_of[i] = NO_ROW;
+    fdl_reply_init(&ident, ident_rooms[0], IDENT_MAX);
+    fdl_reply_init(&lsap, lsap_rooms[0], LSAP_LEN);
+}
+
+struct fdl_sap XDATA *fdl_sap_row_isr(uint8_t sap) IN_ISR
+{
+    uint8_t row = row_of[sap];
+
+    return row == NO_ROW ? 0 : &rows[row];
+}
+
+static bool number_is_valid(uint8_t sap)
+{
+    return sap <= FDL_SAP_MAX || sap == FDL_SAP_NIL;
+}
+
+/* The row a SAP has or could have, NO_ROW when there is none left. */
+static uint8_t find_row(uint8_t sap)
+{
+    uint8_t row = row_of[sap];
+
+    if (row != NO_ROW)
+        return row;
+    for (row = 0; row < FDL_SAPS; row++)
+        if (owner_of[row] == NO_ROW)
+            return row;
+    return NO_ROW;
+}
+
+bool fdl_sap_set(uint8_t sap, const struct fdl_sap XDATA *how)
+{
+    uint8_t row;
+    uint8_t irq;
+
+    if (!number_is_valid(sap))
+        return false;
+    row = find_row(sap);
+    if (row == NO_ROW)
+        return false;
+    irq = hal_irq_save();
+    rows[row] = *how;
+    owner_of[row] = sap;
+    row_of[sap] = row;
+    hal_irq_restore(irq);
+    return true;
+}
+
+bool fdl_sap_clear(uint8_t sap)
+{
+    uint8_t row;
+
+    if (!number_is_valid(sap) || row_of[sap] == NO_ROW)
+        return false;
+    row = row_of[sap];
+    row_of[sap] = NO_ROW;
+    owner_of[row] = NO_ROW;
+    return true;
+}
+
+/* ---- update buffers -------------------------------------------------------------------------------------------------- */
+
+void fdl_reply_init(struct fdl_reply XDATA *reply, uint8_t XDATA *rooms, uint8_t max)
+{
+    uint8_t i;
+
+    for (i = 0; i < 3; i++) {
+        reply->room[i] = rooms;
+        reply->len[i] = 0;
+        reply->sum[i] = 0;
+        rooms += FDL_ROOM(max);
+    }
+    reply->max = max;
+    reply->sent = 0;
+    reply->ready = 1;
+    reply->spare = 2;
+    reply->valid = false;
+    reply->fresh = false;
+    reply->hold = false;
+    reply->high = false;
+    reply->single = false;
+}
+
+void fdl_reply_write(struct fdl_reply XDATA *reply, const uint8_t XDATA *lsdu, uint8_t len, uint8_t how)
+{
+    uint8_t i = reply->spare;
+    uint8_t XDATA *room = reply->room[i] + FDL_ROOM_HEAD;
+    uint8_t sum = 0;
+    uint8_t n;
+    uint8_t irq;
+
+    for (n = len; n; n--) {
+        sum = (uint8_t)(sum + *lsdu);
+        *room++ = *lsdu++;
+    }
+    reply->len[i] = len;
+    reply->sum[i] = sum;
+    irq = hal_irq_save();
+    reply->spare = reply->ready;
+    reply->ready = i;
+    reply->fresh = true;
+    reply->valid = true;
+    reply->high = (how & FDL_UPDATE_HIGH) != 0;
+    reply->single = (how & FDL_UPDATE_SINGLE) != 0;
+    hal_irq_restore(irq);
+}
+
+uint8_t fdl_reply_update(uint8_t ssap, const uint8_t XDATA *lsdu, uint8_t len, uint8_t how)
+{
+    struct fdl_sap XDATA *row;
+
+    if (!number_is_valid(ssap) || (how & ~(FDL_UPDATE_HIGH | FDL_UPDATE_SINGLE)))
+        return FDL_L_IV;
+    row = fdl_sap_row_isr(ssap);
+    if (!row || !row->reply)
+        return FDL_L_LS;
+    if (len > row->reply->max)
+        return FDL_L_LR;
+    fdl_reply_write(row->reply, lsdu, len, how);
+    return FDL_L_OK;
+}
+
+/* ---- Ident and LSAP status ------------------------------------------------------------------------------------------- */
+
+void fdl_set_ident(const uint8_t XDATA *data, uint8_t len)
+{
+    fdl_reply_write(&ident, data, len < IDENT_MAX ? len : IDENT_MAX, FDL_UPDATE_LOW);
+}
+
+struct fdl_reply XDATA *fdl_ident_reply_isr(void) IN_ISR
+{
+    return &ident;
+}
+
+/* Service_type in the low half, Role_in_service in the high half: responder, or not activated. The two nibbles' values:
+ * our choice where the clause could not be read; role 1 = responder, 3 = not activated; types as numbered there. */
+#define ROLE_RESPONDER 0x10u
+#define ROLE_NONE      0x30u
+#define TYPE_SDA  0u
+#define TYPE_SDN  1u
+#define TYPE_SRD  3u
+#define TYPE_CSRD 5u
+
+static uint8_t role_isr(bool active) IN_ISR
+{
+    return active ? ROLE_RESPONDER : ROLE_NONE;
+}
+
+struct fdl_reply XDATA *fdl_lsap_reply_isr(void) IN_ISR
+{
+    struct fdl_sap XDATA *row = fdl_sap_row_isr(fdl_req.dsap);
+    uint8_t XDATA *data = lsap.room[0] + FDL_ROOM_HEAD;
+    bool srd;
+    uint8_t i;
+
+    if (!row)
+        return 0;
+    srd = (row->services & FDL_SRD) != 0;
+    data[0] = row->access;
+    data[1] = 0;
+    data[2] = TYPE_SDA | role_isr((row->services & FDL_SDA) != 0);
+    data[3] = TYPE_SDN | role_isr((row->services & FDL_SDN) != 0);
+    data[4] = TYPE_SRD | role_isr(srd);
+    data[5] = TYPE_CSRD | role_isr(srd);
+    lsap.sum[0] = 0;
+    for (i = 0; i < LSAP_LEN; i++)
+        lsap.sum[0] = (uint8_t)(lsap.sum[0] + data[i]);
+    lsap.len[0] = LSAP_LEN;
+    lsap.valid = true;
+    return &lsap;
+}

@@ -1,0 +1,278 @@
+/* Variables and SAPs: every value is held by the layer it belongs to, this is the one door to them. */
+#include "fdl/fma.h"
+#include "fdl/fdl_priv.h"
+#include "hal/hal.h"
+#include "phy_uart/phy_uart.h"
+
+#define T_SL_DEFAULT_TBIT 100u /* EN 50170-2 part 8: up to 187.5 kbit/s */
+#define T_SL_MIN_TBIT     37u
+#define T_SL_MAX_TBIT     16383u
+#define T_SDR_MIN_TBIT    11u
+#define T_SDR_MAX_TBIT    255u
+
+/* Time_out: T_TO = 6 T_SL + 2 n T_SL with n = 130 for a slave (EN 50170-2 part 4, 4.1.7); our choice: never less than
+ * 100 ms, so that the event means "no master" and not "the master's computer was busy". */
+#define T_TO_SLOTS  266u
+#define T_TO_MIN_MS 100u
+
+static uint16_t t_sl;
+static uint16_t quiet_ms;
+static uint16_t t_to_ms;
+static uint16_t seen_sd;
+static uint16_t seen_errors;
+static bool timed_out;
+
+static void set_t_to(void)
+{
+    uint32_t bit_per_s = phy_bit_per_s(phy_read_value(PHY_BAUD_RATE));
+    uint32_t ms = bit_per_s ? (uint32_t)t_sl * T_TO_SLOTS * 1000u / bit_per_s : 0;
+
+    t_to_ms = ms < T_TO_MIN_MS ? T_TO_MIN_MS : ms > 60000u ? 60000u : (uint16_t)ms;
+}
+
+uint8_t fma_reset(uint8_t ts)
+{
+    if (ts > FDL_UNADDRESSED)
+        return FMA_IV;
+    phy_reset();
+    fdl_reset(ts);
+    t_sl = T_SL_DEFAULT_TBIT;
+    quiet_ms = 0;
+    seen_sd = 0;
+    seen_errors = 0;
+    timed_out = false;
+    set_t_to();
+    return FMA_OK;
+}
+
+/* PHY variable behind an FMA variable, PHY_VARIABLES where there is none. */
+static uint8_t phy_variable_of(uint8_t variable)
+{
+    switch (variable) {
+    case FMA_BAUD_RATE:
+        return PHY_BAUD_RATE;
+    case FMA_MEDIUM_RED:
+        return PHY_MEDIUM_RED;
+    case FMA_TRANSMITTER:
+        return PHY_TRANSMITTER_OUTPUT;
+    case FMA_SIGNAL_SOURCE:
+        return PHY_RECEIVED_SIGNAL_SOURCE;
+    case FMA_LOOP:
+        return PHY_LOOP;
+    default:
+        return PHY_VARIABLES;
+    }
+}
+
+static uint8_t set_phy(uint8_t variable, uint16_t value)
+{
+    if (value > 0xFFu)
+        return FMA_IV;
+    switch (phy_set_value(variable, (uint8_t)value)) {
+    case PHY_OK:
+        set_t_to();
+        return FMA_OK;
+    case PHY_NO:
+        return FMA_NO;
+    default:
+        return FMA_IV;
+    }
+}
+
+static uint8_t set_t_sl(uint16_t value)
+{
+    if (value < T_SL_MIN_TBIT || value > T_SL_MAX_TBIT)
+        return FMA_IV;
+    t_sl = value;
+    set_t_to();
+    return FMA_OK;
+}
+
+static uint8_t set_min_t_sdr(uint16_t value)
+{
+    if (value < T_SDR_MIN_TBIT || value > T_SDR_MAX_TBIT)
+        return FMA_IV;
+    phy_set_min_t_sdr((uint8_t)value);
+    return FMA_OK;
+}
+
+static uint8_t clear_count(uint16_t XDATA *count, uint16_t value)
+{
+    uint8_t irq;
+
+    if (value != 0)
+        return FMA_IV;
+    irq = hal_irq_save();
+    *count = 0;
+    hal_irq_restore(irq);
+    return FMA_OK;
+}
+
+uint8_t fma_set_value(uint8_t variable, uint16_t value)
+{
+    if (phy_variable_of(variable) != PHY_VARIABLES)
+        return set_phy(phy_variable_of(variable), value);
+    switch (variable) {
+    case FMA_TS:
+        if (value > FDL_UNADDRESSED)
+            return FMA_IV;
+        fdl_set_address((uint8_t)value);
+        return FMA_OK;
+    case FMA_T_SL:
+        return set_t_sl(value);
+    case FMA_MIN_T_SDR:
+        return set_min_t_sdr(value);
+    case FMA_SD_COUNT:
+        return clear_count(&fdl_counters.sd_count, value);
+    case FMA_SD_ERROR_COUNT:
+        return clear_count(&fdl_counters.sd_error_count, value);
+    default:
+        return FMA_IV;
+    }
+}
+
+static uint16_t read_count(const uint16_t XDATA *count)
+{
+    uint8_t irq = hal_irq_save();
+    uint16_t value = *count;
+
+    hal_irq_restore(irq);
+    return value;
+}
+
+uint8_t fma_read_value(uint8_t variable, uint16_t XDATA *value)
+{
+    if (phy_variable_of(variable) != PHY_VARIABLES) {
+        *value = phy_read_value(phy_variable_of(variable));
+        return FMA_OK;
+    }
+    switch (variable) {
+    case FMA_TS:
+        *value = fdl_ts;
+        return FMA_OK;
+    case FMA_T_SL:
+        *value = t_sl;
+        return FMA_OK;
+    case FMA_MIN_T_SDR:
+        *value = phy_min_t_sdr();
+        return FMA_OK;
+    case FMA_SD_COUNT:
+        *value = read_count(&fdl_counters.sd_count);
+        return FMA_OK;
+    case FMA_SD_ERROR_COUNT:
+        *value = read_count(&fdl_counters.sd_error_count);
+        return FMA_OK;
+    default:
+        return FMA_IV;
+    }
+}
+
+static uint8_t ident_len;
+static uint8_t ident_strings;
+
+static void put_string(uint8_t XDATA *to, const char CODE *text)
+{
+    uint8_t start = ident_len;
+
+    while (*text)
+        to[ident_len++] = (uint8_t)*text++;
+    to[ident_strings++] = (uint8_t)(ident_len - start);
+}
+
+STATIC_ASSERT(sizeof DEV_VENDOR + sizeof DEV_MODEL + sizeof DEV_HW_RELEASE + sizeof DEV_SW_RELEASE <= 64,
+              ident_strings_fit_64_octets);
+
+uint8_t fma_ident(uint8_t XDATA *to)
+{
+    static const char CODE vendor[] = DEV_VENDOR;
+    static const char CODE model[] = DEV_MODEL;
+    static const char CODE hw_release[] = DEV_HW_RELEASE;
+    static const char CODE sw_release[] = DEV_SW_RELEASE;
+
+    ident_len = 4;
+    ident_strings = 0;
+    put_string(to, vendor);
+    put_string(to, model);
+    put_string(to, hw_release);
+    put_string(to, sw_release);
+    return ident_len;
+}
+
+uint8_t fma_lsap_status(uint8_t sap, struct fdl_sap XDATA *to)
+{
+    struct fdl_sap XDATA *row;
+
+    if (sap >= FDL_SAP_NUMBERS)
+        return FMA_IV;
+    row = fdl_sap_row_isr(sap);
+    if (!row)
+        return FMA_LS;
+    *to = *row;
+    return FMA_OK;
+}
+
+static struct fdl_sap XDATA new_row;
+
+static uint8_t activate(uint8_t sap)
+{
+    if (sap >= FDL_SAP_NUMBERS || sap == FDL_SAP_MAX + 1u || new_row.access > FDL_ALL)
+        return FMA_IV;
+    return fdl_sap_set(sap, &new_row) ? FMA_OK : FMA_LR;
+}
+
+uint8_t fma_sap_activate(uint8_t sap, uint8_t access, uint8_t services, uint8_t max_len, uint8_t handling)
+{
+    if (services == 0 || (services & ~(FDL_SDA | FDL_SDN)))
+        return FMA_IV;
+    new_row.access = access;
+    new_row.services = services;
+    new_row.max_len = max_len;
+    new_row.handling = handling;
+    new_row.reply = 0;
+    return activate(sap);
+}
+
+uint8_t fma_rsap_activate(uint8_t sap, uint8_t access, uint8_t max_len, uint8_t handling,
+                          struct fdl_reply XDATA *reply)
+{
+    new_row.access = access;
+    new_row.services = FDL_SRD;
+    new_row.max_len = max_len;
+    new_row.handling = handling;
+    new_row.reply = reply;
+    return activate(sap);
+}
+
+uint8_t fma_sap_deactivate(uint8_t sap)
+{
+    if (sap >= FDL_SAP_NUMBERS)
+        return FMA_IV;
+    return fdl_sap_clear(sap) ? FMA_OK : FMA_LS;
+}
+
+void phy_event_ind(uint8_t variable, uint8_t value)
+{
+    (void)value;
+    fma_event_ind(FMA_EVENT_PHY, variable);
+}
+
+/* One event when the bus falls silent, one a poll while only rubbish is heard. */
+void fma_poll(uint16_t elapsed_ms)
+{
+    uint16_t sd = read_count(&fdl_counters.sd_count);
+    uint16_t errors = read_count(&fdl_counters.sd_error_count);
+
+    if (sd != seen_sd) {
+        quiet_ms = 0;
+        timed_out = false;
+    } else if (quiet_ms < t_to_ms) {
+        quiet_ms = (uint16_t)(quiet_ms + (elapsed_ms < 1000u ? elapsed_ms : 1000u));
+    } else if (!timed_out) {
+        timed_out = true;
+        fma_event_ind(FMA_EVENT_TIME_OUT, 0);
+    }
+    if (sd == seen_sd && errors != seen_errors)
+        fma_event_ind(FMA_EVENT_NOT_SYN, (uint8_t)errors);
+    seen_sd = sd;
+    seen_errors = errors;
+}
