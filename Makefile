@@ -5,15 +5,18 @@
 #
 #   PROGRAMS     += fieldling-x         host program build/posix/fieldling-x (gcc alone must be enough)
 #     fieldling-x_SRC                   its C files
+#     fieldling-x_CONFIG                the device's configuration header, found in boards/common or by _CFLAGS;
+#                                       dp_test01.h when not given
 #     fieldling-x_CFLAGS, _LDLIBS       own options, optional
 #     fieldling-x_DEFAULTS              C files of default callbacks: linked from an archive, so that a function
 #                                       of the same name in _SRC takes the place of the default; optional
 #   UNIT_TESTS   += test_x              host_tests/test_x.c with Unity -> build/test/test_x, and build/asan/test_x
 #     test_x_SRC                        the files under test
-#     test_x_CFLAGS, _LDLIBS, _DEFAULTS as above; test_x_TIMEOUT [s]
+#     test_x_CONFIG, _CFLAGS, _LDLIBS, _DEFAULTS as above; test_x_TIMEOUT [s]
 #   SCRIPT_TESTS += host_tests/x.py     ends with Unity's summary line; finds its programs in $FIELDLING_BIN;
 #     host_tests/x.py_TIMEOUT [s]       run with the gcc programs and again with the sanitized ones
 #   SCRIPT_TESTS_ONCE += host_tests/x.sh  the same for a script that runs no host program of ours: once
+#   QUICK_TESTS  += host_tests/x.py     like _ONCE, and fast: run by `make check` too
 #   BOARD_IMAGES += build/87c51fb/x.ihx   built by `make test`; the fragment has the rule
 #   STATIC       += a-target            run by `make check`
 #   BENCHES      += bench-x             a target, run by `make bench`, one after the other
@@ -33,7 +36,7 @@ PYTHON   := build/venv/bin/python
 # ---- how a C file is compiled, by variant: posix = programs, test = unit tests, asan = both, with clang ----
 
 WARNINGS := -std=c99 -Wall -Wextra -Wconversion -Werror -D_POSIX_C_SOURCE=200809L -D_DEFAULT_SOURCE
-INCLUDES := -I. -Ifirmware -Ifirmware/hal/posix
+INCLUDES := -I. -Ifirmware -Ifirmware/hal/posix -Iboards/common
 SANITIZE := -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 
 posix_CC     := gcc
@@ -54,18 +57,22 @@ say = $(if $(V),,@echo "  $1  $2" && )
 # $(call remember,FILE,TEXT): rewrites FILE when TEXT has changed; what depends on FILE follows changed options.
 remember = $(if $(filter-out x$(strip $(file <$1))x,x$(strip $2)x),$(shell mkdir -p $(dir $1))$(file >$1,$2))
 
-# $(call objects,VARIANT,NAME,SOURCES): programs without own options share their objects.
-objset  = $(if $(strip $($1_CFLAGS)),$1,common)
+# Objects are shared by what is compiled with the same options: a set is a configuration header, or the name of a
+# program with options of its own.
+config  = $(or $($1_CONFIG),dp_test01.h)
+objset  = $(if $(strip $($1_CFLAGS)),$1,$(basename $(call config,$1)))
+options = -DFIELDLING_CONFIG='"$(call config,$1)"' $($1_CFLAGS)
 objects = $(patsubst %.c,build/$1/obj/$(call objset,$2)/%.o,$3)
 
-define compile_rule # VARIANT SET OWN-OPTIONS
-$(call remember,build/$1/obj/$2/options,$($1_CC) $(WARNINGS) $(INCLUDES) $($1_CFLAGS) $3)
+define compile_rule # VARIANT SET OPTIONS
+$(call remember,build/$1/obj/$2/options,$($1_CC) $(WARNINGS) $3 $(INCLUDES) $($1_CFLAGS))
 build/$1/obj/$2/%.o: %.c build/$1/obj/$2/options
 	@mkdir -p $$(@D)
 	$$(call say,CC,$$@)$($1_CC) $(WARNINGS) $3 $(INCLUDES) $($1_CFLAGS) -MMD -MP -c $$< -o $$@
 build/$1/obj/$2/build/unity/%.o: build/unity/%.c
 	@mkdir -p $$(@D)
 	$$(call say,CC,$$@)$($1_CC) -w $($1_CFLAGS) -c $$< -o $$@
+rule_$1_$2 := 1
 endef
 
 define link_rule # VARIANT NAME SOURCES
@@ -79,13 +86,11 @@ endef
 
 test_sources = $(UNITY) host_tests/$1.c $($1_SRC)
 
-$(foreach v,posix test asan,$(eval $(call compile_rule,$v,common,)))
-$(foreach p,$(PROGRAMS),$(foreach v,posix asan,\
-  $(if $(strip $($p_CFLAGS)),$(eval $(call compile_rule,$v,$p,$($p_CFLAGS))))\
-  $(eval $(call link_rule,$v,$p,$($p_SRC)))))
-$(foreach t,$(UNIT_TESTS),$(foreach v,test asan,\
-  $(if $(strip $($t_CFLAGS)),$(eval $(call compile_rule,$v,$t,$($t_CFLAGS))))\
-  $(eval $(call link_rule,$v,$t,$(call test_sources,$t)))))
+# $(call build,VARIANT,NAME,SOURCES): the rules for one program, and for its set of objects if they are not there yet
+build = $(if $(rule_$1_$(call objset,$2)),,$(eval $(call compile_rule,$1,$(call objset,$2),$(call options,$2))))\
+        $(eval $(call link_rule,$1,$2,$3))
+$(foreach p,$(PROGRAMS),$(foreach v,posix asan,$(call build,$v,$p,$($p_SRC))))
+$(foreach t,$(UNIT_TESTS),$(foreach v,test asan,$(call build,$v,$t,$(call test_sources,$t))))
 
 # ---- what a user asks for --------------------------------------------------------------------------------
 
@@ -120,12 +125,12 @@ static: $(STATIC)
 test: setup
 	@$(MAKE) --no-print-directory $J build-tests build-asan boards static
 	@TEST_FULL=1 $(RUN_PY) $(call timed,$(UNIT_TESTS),build/test/) $(call timed,$(UNIT_TESTS),build/asan/) \
-	    $(call timed,$(SCRIPT_TESTS_ONCE)) $(call timed,$(SCRIPT_TESTS)) --asan $(call timed,$(SCRIPT_TESTS))
+	    $(call timed,$(QUICK_TESTS) $(SCRIPT_TESTS_ONCE)) $(call timed,$(SCRIPT_TESTS)) --asan $(call timed,$(SCRIPT_TESTS))
 
 check:
 	@test -d build/unity && test -x $(PYTHON) || sh host_tests/setup.sh
 	@$(MAKE) --no-print-directory $J build-tests static
-	@$(RUN_PY) $(call timed,$(UNIT_TESTS),build/test/)
+	@$(RUN_PY) $(call timed,$(UNIT_TESTS),build/test/) $(call timed,$(QUICK_TESTS))
 
 bench: all
 	@for b in $(BENCHES); do $(MAKE) --no-print-directory $$b || exit 1; done
