@@ -152,7 +152,7 @@ struct fdl_sap {
 bool fdl_sap_set(uint8_t sap, const struct fdl_sap XDATA *how);
 bool fdl_sap_clear(uint8_t sap);
 
-/* The active SAP's row, or 0. main, isr. */
+/* The active SAP's row, or 0. isr, lock. */
 struct fdl_sap XDATA *fdl_sap_row_isr(uint8_t sap) IN_ISR;
 
 /* FDL_REPLY_UPDATE.request / .confirm -> enum fdl_l_status. The L_sdu is copied and will answer the next SRD to ssap,

@@ -138,10 +138,13 @@ void fdl_reply_write(struct fdl_reply XDATA *reply, const uint8_t XDATA *lsdu, u
 uint8_t fdl_reply_update(uint8_t ssap, const uint8_t XDATA *lsdu, uint8_t len, uint8_t how)
 {
     struct fdl_sap XDATA *row;
+    uint8_t irq;
 
     if (!number_is_valid(ssap) || (how & ~(FDL_UPDATE_HIGH | FDL_UPDATE_SINGLE)))
         return FDL_L_IV;
+    irq = hal_irq_save();
     row = fdl_sap_row_isr(ssap);
+    hal_irq_restore(irq);
     if (!row || !row->reply)
         return FDL_L_LS;
     if (len > row->reply->max)

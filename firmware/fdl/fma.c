@@ -12,8 +12,8 @@
 
 /* Time_out: T_TO = 6 T_SL + 2 n T_SL with n = 130 for a slave (EN 50170-2 part 4, 4.1.7); our choice: never less than
  * 100 ms, so that the event means "no master" and not "the master's computer was busy". */
-#define T_TO_SLOTS  266u
-#define T_TO_MIN_MS 100u
+#define T_TO_SLOTS_MS 266000ul /* 266 slots, in ms at 1 bit/s */l /* long: SDCC would fold the product of constants in 16 bits */
+#define T_TO_MIN_MS   100u
 
 static uint16_t t_sl;
 static uint16_t quiet_ms;
@@ -25,7 +25,7 @@ static bool timed_out;
 static void set_t_to(void)
 {
     uint32_t bit_per_s = phy_bit_per_s(phy_read_value(PHY_BAUD_RATE));
-    uint32_t ms = bit_per_s ? (uint32_t)t_sl * T_TO_SLOTS * 1000u / bit_per_s : 0;
+    uint32_t ms = bit_per_s ? t_sl * T_TO_SLOTS_MS / bit_per_s : 0;
 
     t_to_ms = ms < T_TO_MIN_MS ? T_TO_MIN_MS : ms > 60000u ? 60000u : (uint16_t)ms;
 }
@@ -201,10 +201,13 @@ uint8_t fma_ident(uint8_t XDATA *to)
 uint8_t fma_lsap_status(uint8_t sap, struct fdl_sap XDATA *to)
 {
     struct fdl_sap XDATA *row;
+    uint8_t irq;
 
     if (sap >= FDL_SAP_NUMBERS)
         return FMA_IV;
+    irq = hal_irq_save();
     row = fdl_sap_row_isr(sap);
+    hal_irq_restore(irq);
     if (!row)
         return FMA_LS;
     *to = *row;
