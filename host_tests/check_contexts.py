@@ -43,8 +43,8 @@ class Function:
 
 
 def parse(path):
-    """-> functions, names whose address is taken in tables, overlaid variables"""
-    functions, taken, overlaid = [], set(), []
+    """-> functions, functions whose address is taken, overlaid variables"""
+    functions, taken, overlaid, external, data = [], set(), [], set(), set()
     area, current = "", None
     for line in Path(path).read_text(errors="replace").splitlines():
         line = line.split(";")[0].rstrip()
@@ -57,13 +57,17 @@ def parse(path):
             elif area in ("CSEG", "HOME") and name.startswith("_"):
                 current = Function(name[1:])
                 functions.append(current)
-            elif area == "OSEG":
-                overlaid.append(name[1:])
+            else:
+                data.add(name[1:])
+                if area == "OSEG":
+                    overlaid.append(name[1:])
         words = line.split(None, 1)
         if not words:
             continue
         op, operands = words[0].lower(), words[1].strip() if len(words) > 1 else ""
-        if op == ".area":
+        if op == ".globl":
+            external.add(operands[1:])
+        elif op == ".area":
             area, current = operands.split()[0], None
         elif op in (".byte", ".db", ".word", ".dw"):
             if current:
@@ -74,8 +78,8 @@ def parse(path):
             current.code.append((op, operands))
             if op == "mov" and "#" in operands:  # the address of a function passed or stored by code
                 taken |= {n[1:] for n in re.findall(r"#\(?(_\w+)", operands)}
-    names = {f.name for f in functions}
-    return functions, taken, overlaid, names
+    defined = {f.name for f in functions}
+    return functions, taken & (defined | (external - data)), overlaid
 
 
 def calls(function):
@@ -135,13 +139,12 @@ def lock_depths(function):
 
 
 def check(path, reentrant):
-    functions, taken, overlaid, names = parse(path)
+    functions, handlers, overlaid = parse(path)
     problems = []
 
     def problem(function, text):
         problems.append(f"{path}: {function}: {text}")
 
-    handlers = {n for n in taken if n in names}
     for function in functions:
         name, inside = function.name, is_interrupt(function.name)
         depths = None
@@ -173,7 +176,7 @@ def check(path, reentrant):
                 if leaves and max(depths.get(index, {0})) - (1 if restores else 0) > 0:
                     problem(name, "returns with interrupts masked")
     for variable in overlaid:
-        if any(is_interrupt(n) and variable.startswith(n + "_") for n in names):
+        if any(is_interrupt(f.name) and variable.startswith(f.name + "_") for f in functions):
             problem(variable, "a variable of interrupt code is overlaid with others (compile with --nooverlay)")
     return problems, len(functions)
 

@@ -34,3 +34,7 @@ check-sources:
 	@python3 host_tests/check_sources.py $$(find Makefile README.md DESIGN.md .ci firmware boards sim gsd host_tests \
 	    -type f ! -path '*/bad_samples/*' ! -path '*/__pycache__/*' ! -path '*/target/*' ! -name check_sources.py \
 	    2>/dev/null)
+
+# Each check rejects its bad sample.
+export FIELDLING_SDCC := $(SDCC) $(BLANK)
+QUICK_TESTS += host_tests/checks_reject.py

@@ -1,0 +1,2 @@
+/* expect: fdl includes ddlm/ddlm.h, which is not below it */
+#include "ddlm/ddlm.h"

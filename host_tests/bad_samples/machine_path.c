@@ -1,0 +1,2 @@
+/* expect: absolute path /home/someone/pty */
+const char *line = "/home/someone/pty";
