@@ -44,7 +44,7 @@ class Function:
 
 def parse(path):
     """-> functions, functions whose address is taken, overlaid variables"""
-    functions, taken, overlaid, external, data = [], set(), [], set(), set()
+    functions, taken, overlaid, data = [], set(), [], set()
     area, current = "", None
     for line in Path(path).read_text(errors="replace").splitlines():
         line = line.split(";")[0].rstrip()
@@ -65,9 +65,7 @@ def parse(path):
         if not words:
             continue
         op, operands = words[0].lower(), words[1].strip() if len(words) > 1 else ""
-        if op == ".globl":
-            external.add(operands[1:])
-        elif op == ".area":
+        if op == ".area":
             area, current = operands.split()[0], None
         elif op in (".byte", ".db", ".word", ".dw"):
             if current:
@@ -78,8 +76,7 @@ def parse(path):
             current.code.append((op, operands))
             if op == "mov" and "#" in operands:  # the address of a function passed or stored by code
                 taken |= {n[1:] for n in re.findall(r"#\(?(_\w+)", operands)}
-    defined = {f.name for f in functions}
-    return functions, taken & (defined | (external - data)), overlaid
+    return functions, taken - data, overlaid
 
 
 def calls(function):
