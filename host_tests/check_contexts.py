@@ -44,7 +44,8 @@ class Function:
 
 def parse(path):
     """-> functions, functions whose address is taken, overlaid variables"""
-    functions, taken, overlaid, data = [], set(), [], set()
+    functions, overlaid = [], []
+    in_tables, in_code, data = set(), set(), set()
     area, current = "", None
     for line in Path(path).read_text(errors="replace").splitlines():
         line = line.split(";")[0].rstrip()
@@ -71,12 +72,13 @@ def parse(path):
             if current:
                 current.code.append((op, operands))
             else:
-                taken |= {n[1:] for n in re.findall(r"\b_\w+", operands)}
+                in_tables |= {n[1:] for n in re.findall(r"\b_\w+", operands)}
         elif current and not op.startswith(".") and "=" not in op:
             current.code.append((op, operands))
             if op == "mov" and "#" in operands:  # the address of a function passed or stored by code
-                taken |= {n[1:] for n in re.findall(r"#\(?(_\w+)", operands)}
-    return functions, taken - data, overlaid
+                in_code |= {n[1:] for n in re.findall(r"#\(?(_\w+)", operands)}
+    defined = {f.name for f in functions}
+    return functions, (in_tables - data) | (in_code & defined), overlaid
 
 
 def calls(function):
