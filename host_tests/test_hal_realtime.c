@@ -17,7 +17,7 @@
 #include <time.h>
 #include <unistd.h>
 
-static char folder[] = "/tmp/fieldling-XXXXXX";
+static char folder[] = P_tmpdir "/fieldling-XXXXXX";
 static char link_path[64], pty_spec[72];
 
 /* ---- the stack above the port: notes every upcall ------------------------------------------------------ */
