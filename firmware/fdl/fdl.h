@@ -161,6 +161,7 @@ enum fdl_l_status { FDL_L_OK, FDL_L_LS /* SAP not active or without reply */, FD
 #define FDL_UPDATE_LOW    0x00u
 #define FDL_UPDATE_HIGH   0x01u
 #define FDL_UPDATE_SINGLE 0x02u
+#define FDL_UPDATE_KEEP   0x04u /* fdl_reply_write() only: leave the priority as it is */
 uint8_t fdl_reply_update(uint8_t ssap, const uint8_t XDATA *lsdu, uint8_t len, uint8_t how);
 
 /* The same on a reply that need not be bound to an active SAP yet; len <= reply->max. main. */

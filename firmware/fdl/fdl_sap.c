@@ -130,7 +130,8 @@ void fdl_reply_write(struct fdl_reply XDATA *reply, const uint8_t XDATA *lsdu, u
     reply->ready = i;
     reply->fresh = true;
     reply->valid = true;
-    reply->high = (how & FDL_UPDATE_HIGH) != 0;
+    if (!(how & FDL_UPDATE_KEEP))
+        reply->high = (how & FDL_UPDATE_HIGH) != 0;
     reply->single = (how & FDL_UPDATE_SINGLE) != 0;
     hal_irq_restore(irq);
 }

@@ -12,7 +12,7 @@
 
 /* Time_out: T_TO = 6 T_SL + 2 n T_SL with n = 130 for a slave (EN 50170-2 part 4, 4.1.7); our choice: never less than
  * 100 ms, so that the event means "no master" and not "the master's computer was busy". */
-#define T_TO_SLOTS_MS 266000ul /* 266 slots, in ms at 1 bit/s */l /* long: SDCC would fold the product of constants in 16 bits */
+#define T_TO_SLOTS_MS (uint32_t)266000 /* 266 slots, in ms at 1 bit/s; long: SDCC folds in 16 bits */
 #define T_TO_MIN_MS   100u
 
 static uint16_t t_sl;
@@ -25,7 +25,7 @@ static bool timed_out;
 static void set_t_to(void)
 {
     uint32_t bit_per_s = phy_bit_per_s(phy_read_value(PHY_BAUD_RATE));
-    uint32_t ms = bit_per_s ? t_sl * T_TO_SLOTS_MS / bit_per_s : 0;
+    uint32_t ms = bit_per_s ? T_TO_SLOTS_MS * t_sl / bit_per_s : 0;
 
     t_to_ms = ms < T_TO_MIN_MS ? T_TO_MIN_MS : ms > 60000u ? 60000u : (uint16_t)ms;
 }

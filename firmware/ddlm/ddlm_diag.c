@@ -1,0 +1,131 @@
+/* Slave_Diag: what the master is told about the station.
+ *
+ *   octet 1 Station_status_1   2 Station_status_2   3 Ext_Diag_Overflow   4 Diag.Master_Add   5, 6 Ident_Number
+ *         7... extended diagnosis: blocks, each with its kind in bits 7..6 of its first octet
+ * Source   EN 50170-2 part 8, Slave_Diag; spec A6; facts 3.9
+ */
+#include "bytes.h"
+#include "ddlm/ddlm_priv.h"
+
+#define FIXED_LEN 6u
+#define MAX_LEN   (FIXED_LEN + DEV_EXT_DIAG_MAX)
+
+struct fdl_reply XDATA ddlm_diag_reply;
+static uint8_t XDATA rooms[3][FDL_ROOM(MAX_LEN)];
+static uint8_t XDATA diag[MAX_LEN];
+static uint8_t len;
+static uint8_t flags; /* DDLM_EXT_DIAG, DDLM_STAT_DIAG */
+static bool stale;
+
+void ddlm_diag_init(void)
+{
+    fdl_reply_init(&ddlm_diag_reply, rooms[0], MAX_LEN);
+    len = FIXED_LEN;
+    flags = 0;
+    diag[2] = 0;
+    put_u16be(diag + 4, DEV_IDENT);
+}
+
+static uint8_t status_1(void)
+{
+    uint8_t bits = ddlm.faults;
+
+    if (ddlm.state != DDLM_DATA_EXCH)
+        bits |= DIAG_NOT_READY;
+    if (flags & DDLM_EXT_DIAG)
+        bits |= DIAG_EXT_DIAG;
+    return bits;
+}
+
+static uint8_t status_2(void)
+{
+    uint8_t bits = DIAG2_ALWAYS;
+
+    if (ddlm.state <= DDLM_WAIT_PRM)
+        bits |= DIAG2_PRM_REQ;
+    if (flags & DDLM_STAT_DIAG)
+        bits |= DIAG2_STAT_DIAG;
+    if (ddlm_wd_on())
+        bits |= DIAG2_WD_ON;
+    if (ddlm_freeze_mode())
+        bits |= DIAG2_FREEZE;
+    if (ddlm_sync_mode())
+        bits |= DIAG2_SYNC;
+    return bits;
+}
+
+void ddlm_diag_update(void)
+{
+    stale = true;
+    ddlm_diag_poll();
+}
+
+void ddlm_diag_poll(void)
+{
+    if (!stale)
+        return;
+    stale = false;
+    diag[0] = status_1();
+    diag[1] = status_2();
+    diag[3] = ddlm.master;
+    fdl_reply_write(&ddlm_diag_reply, diag, len, FDL_UPDATE_LOW);
+}
+
+/* The owner has the news; anybody else may look without taking them away. */
+void ddlm_diag_read_isr(void) IN_ISR
+{
+    if (fdl_req.sa == ddlm.master && !(flags & DDLM_STAT_DIAG))
+        ddlm_input_reply.high = false;
+}
+
+/* Length of the block at ext[0], 0 where there is none that fits in n octets. */
+#define KIND_CHANNEL  0x80u
+#define KIND_RESERVED 0xC0u
+#define CHANNEL_LEN   3u
+
+static uint8_t block_length(const uint8_t XDATA *ext, uint8_t n)
+{
+    uint8_t kind = ext[0] & 0xC0u;
+    uint8_t length = kind == KIND_CHANNEL ? CHANNEL_LEN : (uint8_t)(ext[0] & 0x3Fu);
+
+    if (kind == KIND_RESERVED || length < 2 || length > n)
+        return 0;
+    return length;
+}
+
+/* Octets of whole blocks that fit; n where all do. 0xFF: malformed. */
+#define MALFORMED 0xFFu
+
+static uint8_t whole_blocks(const uint8_t XDATA *ext, uint8_t n)
+{
+    uint8_t fit = 0;
+    uint8_t at = 0;
+    uint8_t length;
+
+    while (at < n) {
+        length = block_length(ext + at, (uint8_t)(n - at));
+        if (length == 0)
+            return MALFORMED;
+        at = (uint8_t)(at + length);
+        if (at <= DEV_EXT_DIAG_MAX)
+            fit = at;
+    }
+    return fit;
+}
+
+bool ddlm_diag(const uint8_t XDATA *ext, uint8_t n, uint8_t how)
+{
+    uint8_t fit = whole_blocks(ext, n);
+    uint8_t i;
+
+    if (fit == MALFORMED || (how & ~(DDLM_EXT_DIAG | DDLM_STAT_DIAG)))
+        return false;
+    for (i = 0; i < fit; i++)
+        diag[FIXED_LEN + i] = ext[i];
+    len = (uint8_t)(FIXED_LEN + fit);
+    diag[2] = fit < n ? DIAG3_OVERFLOW : 0;
+    flags = how;
+    ddlm_diag_update();
+    ddlm_diag_flag(true);
+    return true;
+}

@@ -1,0 +1,7 @@
+/* Default of an optional callback: alone in its object, so that the application's own replaces it. */
+#include "ddlm/ddlm.h"
+
+void ddlm_state_ind(uint8_t state)
+{
+    (void)state;
+}
