@@ -2,3 +2,6 @@
 
 UNIT_TESTS += test_hal_virtual
 test_hal_virtual_SRC = $(HAL_VIRTUAL)
+
+UNIT_TESTS += test_segment
+test_segment_SRC = $(SIM_SEGMENT)
