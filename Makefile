@@ -47,6 +47,12 @@ asan_CC      := clang
 asan_CFLAGS  := -O1 -g -Ibuild/unity $(SANITIZE)
 asan_LDFLAGS := $(SANITIZE)
 
+# ---- the DP stack: x_SRC = $(DP_SRC) ..., x_DEFAULTS = $(DP_DEFAULTS) --------------------------------------
+
+DP_ALL      := $(sort $(wildcard firmware/phy_uart/*.c firmware/fdl/*.c firmware/ddlm/*.c))
+DP_DEFAULTS := $(filter %_default.c firmware/ddlm/default_%.c,$(DP_ALL))
+DP_SRC      := $(filter-out $(DP_DEFAULTS),$(DP_ALL))
+
 include $(sort $(wildcard sim/*.mk boards/*/board.mk host_tests/*.mk))
 
 UNITY := build/unity/unity.c

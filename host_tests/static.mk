@@ -8,7 +8,8 @@ HEADERS  := $(wildcard firmware/*.h firmware/*/*.h firmware/hal/blank/*.h boards
 # of them runs in an interrupt (host_tests/bad_samples/overlay.c).
 SDCC      := sdcc -mmcs51 --std-c11 --model-large --nooverlay --Werror
 ARM_CC    := arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb -Os -std=c99 -Wall -Wextra -Wconversion -Werror
-BLANK     := -Ifirmware -Ifirmware/hal/blank -Iboards/common -DFIELDLING_CONFIG='"dp_test01.h"'
+BLANK     := -Ifirmware -Ifirmware/hal/blank -Iboards/common -DFIELDLING_CONFIG='"dp_test01.h"' \
+             -DMB_CONFIG='"modbus/mb_all_functions.h"'
 BLANK_RELS := $(patsubst %.c,build/blank/mcs51/%.rel,$(PORTABLE) firmware/hal/hal_blank.c)
 BLANK_OBJS := $(patsubst %.c,build/blank/cortexm0/%.o,$(PORTABLE) firmware/hal/hal_blank.c)
 
@@ -24,8 +25,8 @@ build/blank/cortexm0/%.o: %.c $(HEADERS) host_tests/static.mk
 
 STATIC += check-mcs51 check-cortexm0 check-sources
 
-check-mcs51: $(BLANK_RELS)
-	@python3 host_tests/check_contexts.py --sources firmware $(BLANK_RELS:.rel=.asm)
+check-mcs51: $(sort $(BLANK_RELS) $(call blank_rels,$(BLANK_APP)))
+	@python3 host_tests/check_contexts.py --sources firmware $(^:.rel=.asm)
 
 check-cortexm0: $(BLANK_OBJS)
 
