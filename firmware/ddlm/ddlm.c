@@ -74,6 +74,14 @@ static uint8_t activate(const CODE struct service *service)
     return fma_rsap_activate(service->sap, access, service->max_len, service->handling, reply_at(service->reply));
 }
 
+uint8_t ddlm_variable(uint8_t variable)
+{
+    static uint16_t XDATA value;
+
+    ddlm_check_fma(fma_read_value(variable, &value));
+    return (uint8_t)value;
+}
+
 void ddlm_check_fma(uint8_t m_status)
 {
     if (m_status != FMA_OK)
@@ -180,7 +188,7 @@ uint8_t ddlm_slave_init(uint8_t switches, uint8_t baud)
     ddlm_diag_init();
     ddlm_wd_init(baud);
     last_tick = hal_ticks();
-    status = phy_read_value(PHY_BAUD_RATE) < PHY_BAUDS ? DDLM_OK : DDLM_NO;
+    status = ddlm_variable(FMA_BAUD_RATE) < PHY_BAUDS ? DDLM_OK : DDLM_NO;
     if (status != DDLM_OK)
         ddlm_fault_ind(status);
     if (ddlm.address == FDL_UNADDRESSED)
@@ -212,8 +220,8 @@ void ddlm_read_info(struct ddlm_info XDATA *to)
     to->address = ddlm.address;
     to->master = ddlm.master;
     to->groups = ddlm.groups;
-    to->baud = phy_read_value(PHY_BAUD_RATE);
-    to->min_t_sdr = phy_min_t_sdr();
+    to->baud = ddlm_variable(FMA_BAUD_RATE);
+    to->min_t_sdr = ddlm_variable(FMA_MIN_T_SDR);
     to->wd_on = ddlm_wd_on();
     to->sync_enabled = ddlm.sync_enabled;
     to->freeze_enabled = ddlm.freeze_enabled;

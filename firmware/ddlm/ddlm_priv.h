@@ -48,6 +48,7 @@ void ddlm_enter(void);                    /* DDLM_Enter: data SAP and Global_Con
 void ddlm_leave(void);                    /* DDLM_Leave: deactivated again                                */
 void ddlm_set_min_tsdr(uint8_t tbit);     /* DDLM_Set_minTsdr                                             */
 void ddlm_check_fma(uint8_t m_status);    /* anything but OK raises ddlm_fault_ind()                       */
+uint8_t ddlm_variable(uint8_t variable);  /* FMA Read Value of an FMA variable that fits an octet         */
 void ddlm_slave_saps(void);               /* the SAPs a slave answers on in its present state              */
 
 /* ---- services, main: one indication each ---- */

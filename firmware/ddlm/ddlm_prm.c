@@ -43,7 +43,7 @@ static uint8_t fault_in_request(void)
         return DIAG_PRM_FAULT | DIAG_NOT_SUPPORTED;
     if ((status & WD_ON) && (prm[1] == 0 || prm[2] == 0))
         return DIAG_PRM_FAULT;
-    if (prm[3] != 0 && (prm[3] < T_SDR_MIN || prm[3] > phy_max_t_sdr(phy_read_value(PHY_BAUD_RATE))))
+    if (prm[3] != 0 && (prm[3] < T_SDR_MIN || prm[3] > phy_max_t_sdr(ddlm_variable(FMA_BAUD_RATE))))
         return DIAG_PRM_FAULT;
     if (!ddlm_user_prm_ind(prm + PRM_LEN, (uint8_t)(len - PRM_LEN)))
         return DIAG_PRM_FAULT;
@@ -82,7 +82,7 @@ static void take(uint8_t master)
  * allowed is ignored, since nothing else of this Set_Prm may change either. */
 static void change_min_tsdr(void)
 {
-    if (prm[3] >= T_SDR_MIN && prm[3] <= phy_max_t_sdr(phy_read_value(PHY_BAUD_RATE)))
+    if (prm[3] >= T_SDR_MIN && prm[3] <= phy_max_t_sdr(ddlm_variable(FMA_BAUD_RATE)))
         ddlm_set_min_tsdr(prm[3]);
 }
 
