@@ -11,7 +11,13 @@ PACKAGES="gcc libc6-dev make python3 python3-venv
 sdcc sdcc-ucsim clang clang-format libclang-rt-14-dev valgrind socat pkg-config
 gcc-arm-none-eabi libnewlib-arm-none-eabi libmodbus-dev mbpoll"
 
+# Only where there is no Rust yet; Debian 12's is new enough.
+find_cargo() {
+    command -v cargo || { [ -x "$HOME/.cargo/bin/cargo" ] && echo "$HOME/.cargo/bin/cargo"; }
+}
+
 install_packages() {
+    find_cargo >/dev/null || PACKAGES="$PACKAGES cargo"
     missing=
     for package in $PACKAGES; do
         status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
@@ -62,6 +68,26 @@ install_unity() {
     rm -rf build/unity.part
 }
 
+# ---- profirust, a DP master, as a test peer. Where it cannot be built its test is skipped and says why ------
+PEER=build/interop_profirust
+
+build_profirust() {
+    source=host_tests/interop_profirust
+    [ "$PEER/release/interop_profirust" -nt "$source/src/main.rs" ] &&
+        [ "$PEER/release/interop_profirust" -nt "$source/Cargo.lock" ] && return 0
+    say "cargo build of the profirust peer (profirust 0.6.0)"
+    mkdir -p "$PEER"
+    rm -f "$PEER/skipped"
+    cargo=$(find_cargo) || { echo "no Rust compiler here" >"$PEER/skipped"; return 0; }
+    if "$cargo" build --release --locked -q --manifest-path "$source/Cargo.toml" --target-dir "$PEER" \
+        >"$PEER/build.log" 2>&1; then
+        touch "$PEER/release/interop_profirust"
+    else
+        tail -5 "$PEER/build.log" >&2
+        echo "cargo build failed, see $PEER/build.log" >"$PEER/skipped"
+    fi
+}
+
 mkdir -p build
 if command -v apt-get >/dev/null 2>&1; then
     install_packages
@@ -70,4 +96,5 @@ else
 fi
 install_python
 install_unity
+build_profirust
 say "ready"
