@@ -302,6 +302,7 @@ static void own_request_isr(uint8_t len, bool whole) IN_ISR
     bool sdn = function == FDL_SDN_LOW || function == FDL_SDN_HIGH;
 
     fdl_req.sa = body[SA] & 0x7Fu;
+    fdl_req.sd3 = fdl_rx_buf[0] == FDL_SD3;
     if ((body[FC] & FDL_FC_RESERVED) || (broadcast && !sdn) || !parse_saps_isr(len)) {
         fdl_counters.format++;
         return;

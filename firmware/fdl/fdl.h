@@ -178,6 +178,8 @@ struct fdl_req {
     uint8_t dsap;
     uint8_t ssap;
     uint8_t sa;
+    bool sd3;                 /* came as an SD3: our choice: then eight octets go back as an SD3, else as an SD2 as all
+                                 recorded stations do */
     uint8_t len;              /* of lsdu; the telegram may have been longer: then it was refused */
     uint8_t XDATA *lsdu;
 };

@@ -127,7 +127,7 @@ void fdl_tx_reply_isr(struct fdl_reply XDATA *reply) IN_ISR
     le = put_saps_isr();
     le = (uint8_t)(le + len);
     put_addresses_isr(reply->high ? FDL_DH : FDL_DL);
-    if (le == FDL_SD3_DU) {
+    if (fdl_req.sd3 && le == FDL_SD3_DU) {
         *--head = FDL_SD3;
     } else {
         le += 3;
