@@ -3,6 +3,10 @@
 
 #define T_SDR_DEFAULT_TBIT 11u
 
+/* our choice: a line that cannot show silence hands octets over in lumps (a USB adapter every millisecond, another
+ * process when it is scheduled). 5 ms there, or 33 T_bit where that is longer, is the gap that ends a telegram. */
+#define UNTIMED_GAPS_PER_S 200u
+
 struct phy_rate {
     uint32_t bit_per_s;
     uint16_t max_t_sdr; /* T_bit */
@@ -25,6 +29,7 @@ static HOT volatile struct {
     bool transmitter; /* Transmitter_output is enabled    */
 } line;
 
+static uint16_t t_syn_tbit;
 static hal_dur_t t_syn;
 static hal_dur_t t_sdr;
 static const uint8_t XDATA *answer;
@@ -113,13 +118,22 @@ void line_sent_isr(void) IN_ISR
 
 static void set_times(void)
 {
-    hal_dur_t syn = hal_tbit(PHY_T_SYN_TBIT);
+    hal_dur_t syn = hal_tbit(t_syn_tbit);
     hal_dur_t sdr = hal_tbit(min_t_sdr);
     uint8_t irq = hal_irq_save();
 
     t_syn = syn;
     t_sdr = sdr;
     hal_irq_restore(irq);
+}
+
+static uint16_t gap_tbit(uint32_t bit_per_s)
+{
+    uint32_t n = line.untimed ? bit_per_s / UNTIMED_GAPS_PER_S : 0;
+
+    if (n < PHY_T_SYN_TBIT)
+        return PHY_T_SYN_TBIT;
+    return n < 0xFFFFu ? (uint16_t)n : 0xFFFFu;
 }
 
 /* Open the line at the rate and loop in value_of[]; PHY_NO leaves it as it was. */
@@ -138,6 +152,7 @@ static uint8_t open_line(uint8_t baud, uint8_t loop)
         line.waiting = false;
         line.sending = false;
         phy_rx.left = 0;
+        t_syn_tbit = gap_tbit(phy_bit_per_s(baud));
         set_times();
         hal_silence(t_syn);
     }
