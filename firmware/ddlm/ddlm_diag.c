@@ -13,6 +13,12 @@
 struct fdl_reply XDATA ddlm_diag_reply;
 static uint8_t XDATA rooms[3][FDL_ROOM(MAX_LEN)];
 static uint8_t XDATA diag[MAX_LEN];
+
+/* What is said while a Set_Prm or Chk_Cfg has been acknowledged but not looked at yet: not ready, nothing wrong. A
+ * master that polls faster than the main loop turns would otherwise read "parameters requested" and begin anew. */
+static struct fdl_reply XDATA pending_reply;
+static uint8_t XDATA pending_rooms[3][FDL_ROOM(FIXED_LEN)];
+
 static uint8_t len;
 static uint8_t flags; /* DDLM_EXT_DIAG, DDLM_STAT_DIAG */
 static bool stale;
@@ -20,10 +26,15 @@ static bool stale;
 void ddlm_diag_init(void)
 {
     fdl_reply_init(&ddlm_diag_reply, rooms[0], MAX_LEN);
+    fdl_reply_init(&pending_reply, pending_rooms[0], FIXED_LEN);
     len = FIXED_LEN;
     flags = 0;
+    diag[0] = DIAG_NOT_READY;
+    diag[1] = DIAG2_ALWAYS;
     diag[2] = 0;
+    diag[3] = DDLM_NO_MASTER;
     put_u16be(diag + 4, DEV_IDENT);
+    fdl_reply_write(&pending_reply, diag, FIXED_LEN, FDL_UPDATE_LOW);
 }
 
 static uint8_t status_1(void)
@@ -74,7 +85,9 @@ void ddlm_diag_poll(void)
 /* The owner has the news; anybody else may look without taking them away. */
 void ddlm_diag_read_isr(void) IN_ISR
 {
-    if (fdl_req.sa == ddlm.master && !(flags & DDLM_STAT_DIAG))
+    if (fdl_waiting_isr())
+        fdl_req.reply = &pending_reply;
+    else if (fdl_req.sa == ddlm.master && !(flags & DDLM_STAT_DIAG))
         ddlm_input_reply.high = false;
 }
 

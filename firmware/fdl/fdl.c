@@ -96,6 +96,11 @@ static uint8_t box_isr(void) IN_ISR
     return FDL_OK;
 }
 
+bool fdl_waiting_isr(void) IN_ISR
+{
+    return box_in != box_out;
+}
+
 void fdl_poll(void)
 {
     uint8_t out;
@@ -184,6 +189,7 @@ static uint8_t indicate_isr(struct fdl_sap XDATA *row, bool whole) IN_ISR
         return FDL_RS;
     if (!whole || fdl_req.len > row->max_len)
         return FDL_RR; /* our choice: the L_sdu is longer than the resource activated for it */
+    fdl_req.reply = row->reply;
     switch (row->handling) {
     case FDL_TO_ISR:
         return fdl_ind_isr();
@@ -203,18 +209,16 @@ static void sdn_isr(bool whole) IN_ISR
 /* SDA and SRD. */
 static void acknowledged_isr(uint8_t service, uint8_t len, bool whole) IN_ISR
 {
-    struct fdl_sap XDATA *row;
     uint8_t result;
 
     if (repeated_isr(len))
         return;
     fdl_req.service = service;
-    row = fdl_sap_row_isr(fdl_req.dsap);
-    result = indicate_isr(row, whole);
+    result = indicate_isr(fdl_sap_row_isr(fdl_req.dsap), whole);
     if (result != FDL_OK)
         refuse_isr(result);
-    else if (service == FDL_SRD && row->reply)
-        fdl_tx_reply_isr(row->reply);
+    else if (service == FDL_SRD && fdl_req.reply)
+        fdl_tx_reply_isr(fdl_req.reply);
     else
         fdl_tx_short_isr();
     last.answer = fdl_tx.at;

@@ -182,12 +182,16 @@ struct fdl_req {
                                  recorded stations do */
     uint8_t len;              /* of lsdu; the telegram may have been longer: then it was refused */
     uint8_t XDATA *lsdu;
+    struct fdl_reply XDATA *reply; /* what an SRD will be answered from: the SAP's, or what fdl_ind_isr() puts here */
 };
 extern HOT struct fdl_req fdl_req;
 
 /* Implemented by the layer above: fdl_req is for a SAP activated with FDL_TO_ISR. -> FDL_OK: answer from the reply
  * buffer; FDL_RS, FDL_RR or FDL_UE: refuse. The value is ignored for SDN. isr. */
 uint8_t fdl_ind_isr(void) IN_ISR;
+
+/* Is there an indication that the main loop has not taken yet? isr. */
+bool fdl_waiting_isr(void) IN_ISR;
 
 /* Keep the L_sdu of fdl_req beyond this interrupt: FDL takes `exchange`, a buffer got from this function before, for
  * the next telegram (0: one from its own stock, which has enough for FDL_KEPT_MAX kept). isr. */
