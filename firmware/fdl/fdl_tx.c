@@ -114,12 +114,16 @@ void fdl_tx_reply_isr(struct fdl_reply XDATA *reply) IN_ISR
         fdl_reply_release_isr(reply);
     i = reply->sent;
     len = reply->len[i];
-    if (!reply->valid || len == 0) {
-        tx_empty_isr(reply->valid && reply->high);
+    if (!reply->valid) {
+        fdl_tx_short_isr();
         return;
     }
     if (reply->single)
         reply->valid = false;
+    if (len == 0) {
+        tx_empty_isr(reply->high);
+        return;
+    }
 
     lsdu = reply->room[i] + FDL_ROOM_HEAD;
     head = lsdu;
