@@ -12,3 +12,12 @@ PROGRAMS += fieldling-dp
 fieldling-dp_SRC      = boards/posix/fieldling_dp.c boards/posix/dp_trace.c boards/posix/dp_words.c $(HOST_STATION) \
                         $(DP_STATION) sim/telegram.c
 fieldling-dp_DEFAULTS = $(DP_DEFAULTS)
+
+PROGRAMS += fieldling-demo
+fieldling-demo_SRC      = boards/posix/fieldling_demo.c boards/posix/dp_words.c boards/posix/options.c $(SIM_BUS) \
+                          $(DP_STATION)
+fieldling-demo_DEFAULTS = $(DP_DEFAULTS)
+
+.PHONY: run-dp
+run-dp: build/posix/fieldling-demo
+	@build/posix/fieldling-demo
