@@ -5,3 +5,15 @@ test_hal_virtual_SRC = $(HAL_VIRTUAL)
 
 UNIT_TESTS += test_segment
 test_segment_SRC = $(SIM_SEGMENT)
+
+# DP-TEST01 with its own application, on the segment.
+DP_TEST01_BENCH = $(DP_SRC) boards/common/dp_test01_app.c $(SIM_BUS) \
+                  host_tests/dp_fixture.c host_tests/dp_station_test01.c
+
+DP_TESTS = test_dp_frames test_dp_fcb test_dp_prm test_dp_cfg
+UNIT_TESTS += $(DP_TESTS)
+define dp_test
+$1_SRC = $$(DP_TEST01_BENCH)
+$1_DEFAULTS = $$(DP_DEFAULTS)
+endef
+$(foreach t,$(DP_TESTS),$(eval $(call dp_test,$t)))

@@ -118,9 +118,11 @@ static void on_octet(struct seg_party *party, uint8_t octet, uint8_t err)
     struct bus_master *const b = party->of;
     if (hv_now() <= b->deaf_until)
         return;
-    if (!flt_answer(b->answer_fault, b->answer_hit, b->answer_i++, &octet, &err))
-        return;
-    dpm_hear(&b->dp, hv_now(), octet, err);
+    /* Even a master that cannot read the answer waits until the line is idle: collision is a fault of its own. */
+    if (flt_answer(b->answer_fault, b->answer_hit, b->answer_i++, &octet, &err))
+        dpm_hear(&b->dp, hv_now(), octet, err);
+    else
+        ini_activity(&b->dp.ini, hv_now());
     arm(b);
 }
 

@@ -50,11 +50,16 @@ void ini_tell(struct ini *i, uint64_t now, const uint8_t *octets, unsigned n)
     start(i, now);
 }
 
-void ini_hear(struct ini *i, uint64_t now, uint8_t octet, uint8_t err)
+void ini_activity(struct ini *i, uint64_t now)
 {
     i->quiet = now;
     if (i->state == WAIT_SYN)
         i->due = now + 33 * i->bit;
+}
+
+void ini_hear(struct ini *i, uint64_t now, uint8_t octet, uint8_t err)
+{
+    ini_activity(i, now);
     if (i->state != WAIT_ANSWER && i->state != HEARING)
         return;
     if (i->state == WAIT_ANSWER) {

@@ -51,6 +51,9 @@ void ini_tell(struct ini *i, uint64_t now, const uint8_t *octets, unsigned n);
 /* An octet from the line, our own excepted; err != 0: damaged. */
 void ini_hear(struct ini *i, uint64_t now, uint8_t octet, uint8_t err);
 
+/* The line is not idle, though nothing can be read. */
+void ini_activity(struct ini *i, uint64_t now);
+
 /* When ini_poll() has something to do: call it then. After INI_DONE and INI_LOST the initiator is idle. */
 uint64_t ini_due(const struct ini *i);
 enum ini_event ini_poll(struct ini *i, uint64_t now);

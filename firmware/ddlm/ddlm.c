@@ -171,6 +171,7 @@ void ddlm_set_min_tsdr(uint8_t tbit)
 uint8_t ddlm_slave_init(uint8_t switches, uint8_t baud)
 {
     static uint8_t XDATA ident[64];
+    static const CODE struct ddlm_counters none;
     uint8_t status;
 
     if (switches > FDL_UNADDRESSED || (baud != DDLM_BAUD_AUTO && baud >= PHY_BAUDS))
@@ -181,6 +182,7 @@ uint8_t ddlm_slave_init(uint8_t switches, uint8_t baud)
     ddlm.state = DDLM_POWER_ON;
     ddlm.master = DDLM_NO_MASTER;
     ddlm.faults = 0;
+    ddlm_counters = none;
     ddlm_check_fma(fma_reset(ddlm.address));
     fdl_set_ident(ident, fma_ident(ident));
     ddlm_cfg_init();
