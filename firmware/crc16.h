@@ -1,0 +1,44 @@
+/* CRC-16 of Modbus: polynomial A001H (reflected 8005H), start FFFFH, low octet sent first. Over a whole good
+ * frame, its CRC included, it is 0. Source: Modbus over serial line V1.02, 2.5.1.2 and 6.2.2.
+ *
+ * One function, two shapes: CRC16_ENTRIES 256 (512 octets of table, for speed; the default) or 16 (32 octets).
+ * It is inline because main and interrupts both need it, and on an 8051 no function may serve both.
+ */
+#ifndef FIELDLING_CRC16_H
+#define FIELDLING_CRC16_H
+
+#include "check.h"
+
+#ifndef CRC16_ENTRIES
+#define CRC16_ENTRIES 256
+#endif
+
+#define CRC16_START 0xFFFFu
+
+#if CRC16_ENTRIES == 256
+
+extern const uint8_t CODE crc16_lo[256], crc16_hi[256];
+
+/* The CRC after one more octet. Any context. */
+static inline uint16_t crc16_add(uint16_t crc, uint8_t octet)
+{
+    octet ^= (uint8_t)crc;
+    return (uint16_t)((uint16_t)(crc16_hi[octet] << 8) | (uint8_t)((uint8_t)(crc >> 8) ^ crc16_lo[octet]));
+}
+
+#elif CRC16_ENTRIES == 16
+
+extern const uint16_t CODE crc16_nibble[16];
+
+static inline uint16_t crc16_add(uint16_t crc, uint8_t octet)
+{
+    crc ^= octet;
+    crc = (uint16_t)((crc >> 4) ^ crc16_nibble[crc & 15u]);
+    return (uint16_t)((crc >> 4) ^ crc16_nibble[crc & 15u]);
+}
+
+#else
+#error "CRC16_ENTRIES is 16 or 256"
+#endif
+
+#endif

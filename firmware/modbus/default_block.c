@@ -1,0 +1,6 @@
+#include "modbus/mb.h"
+
+uint8_t mb_block_ind(void)
+{
+    return MB_DEVICE_FAILURE;
+}

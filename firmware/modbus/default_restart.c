@@ -1,0 +1,5 @@
+#include "modbus/mb.h"
+
+void mb_restart_ind(void)
+{
+}

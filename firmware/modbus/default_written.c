@@ -1,0 +1,5 @@
+#include "modbus/mb.h"
+
+void mb_written_ind(void)
+{
+}

@@ -1,0 +1,174 @@
+/* Modbus serial line, what both modes share, and RTU.
+ *
+ * Layer    hal -> [mb_line, mb_ascii] -> mb_server; implements line_octet_isr, line_silence_isr, line_sent_isr
+ * Source   [S] 2.5.1 RTU framing, figure 14 its states, 2.5.1.2 CRC, appendix A the counters
+ *
+ * A frame is what stands between two silences, whatever its contents: only that keeps a server in step on a line
+ * with other servers, absent ones and noise. The CRC is worked out as the octets come, so that nothing is left
+ * to do for it when the frame has ended.
+ */
+#include "modbus/mb_line.h"
+#include "crc16.h"
+
+struct mb_port XDATA mb_port;
+struct mb_frame XDATA mb_frame;
+HOT struct mb_rx mb_rx;
+
+#define CHAR_TBIT 11u /* [S] 2.5.1: always, in RTU */
+#define CRC_LEN   2u
+#define LAST_MIN  (1u + 1u + CRC_LEN - 1u) /* address, function code, CRC */
+
+/* ---- main ---------------------------------------------------------------------------------------------- */
+
+/* [S] 2.5.1.1: 1.5 and 3.5 characters up to 19200 bit/s, above it 750 us and 1.75 ms (worked out without a
+ * division: 49/256 and 29/64 of the bits in 1/256 s). A port reports an octet when it is complete, so a gap of 1.5
+ * characters shows as 1.5 + 1 characters between two reports. */
+static void set_gaps(void)
+{
+    const uint16_t k = (uint16_t)(mb_port.bit_per_s >> 8);
+    uint16_t t15 = mb_port.gap_tbit;
+    uint16_t t35 = t15;
+    if (t35 == 0) {
+        t15 = CHAR_TBIT + 17u;
+        t35 = 39u;
+        if (mb_port.bit_per_s > 19200u) {
+            t15 = (uint16_t)(CHAR_TBIT + (k * 49u >> 8));
+            t35 = (uint16_t)(1u + (k * 29u >> 6));
+        }
+    }
+    mb_rx.t15 = hal_tbit(t15);
+    mb_rx.t35 = hal_tbit(t35);
+}
+
+uint8_t mb_open(void)
+{
+    uint8_t line;
+    uint8_t irq;
+    if ((uint8_t)(mb_port.address - 1u) >= 247u || mb_port.mode > (MB_WITH_ASCII ? MB_ASCII : MB_RTU))
+        return HAL_LINE_NO;
+    irq = hal_irq_save();
+    line = hal_line_open(mb_port.bit_per_s, mb_port.format);
+    if (line != HAL_LINE_NO) {
+        set_gaps();
+        if (MB_WITH_ASCII && mb_port.mode == MB_ASCII) {
+            mb_rx.state = mb_rx.idle = MB_COLON;
+            mb_delimiter = mb_next_delimiter = '\n';
+        } else {
+            mb_rx.state = MB_INITIAL;
+            mb_rx.idle = MB_IDLE;
+            hal_silence(mb_rx.t35);
+        }
+    }
+    hal_irq_restore(irq);
+    return line;
+}
+
+/* -> octets of the frame */
+static uint16_t append_crc(void)
+{
+    const uint16_t n = (uint16_t)(mb_pdu_len + 1u);
+    uint8_t XDATA *at = mb_adu;
+    uint8_t XDATA *const end = mb_adu + n;
+    uint16_t crc = CRC16_START;
+    do
+        crc = crc16_add(crc, *at++);
+    while (at != end);
+    at[0] = (uint8_t)crc;
+    at[1] = (uint8_t)(crc >> 8);
+    return (uint16_t)(n + CRC_LEN);
+}
+
+static bool is_ascii(void)
+{
+    return MB_WITH_ASCII && mb_rx.idle == MB_COLON;
+}
+
+/* Our choice: when something is heard after the request, its client has given up and is talking again; it is not
+ * talked into. What is heard has lost its start and will not pass as a frame. */
+void mb_line_answer(void)
+{
+    uint16_t n;
+    uint8_t irq;
+    n = is_ascii() ? mb_ascii_encode() : append_crc();
+    irq = hal_irq_save();
+    if (mb_rx.flaws) {
+        mb_rx.state = mb_idle_state;
+    } else {
+        mb_rx.state = MB_SENDING;
+        hal_send(mb_adu, n);
+    }
+    hal_irq_restore(irq);
+}
+
+void mb_line_release(void)
+{
+    mb_rx.state = mb_idle_state;
+}
+
+/* ---- interrupts ---------------------------------------------------------------------------------------- */
+
+void mb_frame_end_isr(uint8_t pdu_len) IN_ISR
+{
+    mb_rx.state = mb_idle_state;
+    if (pdu_len == 0) {
+        if (MB_HAS_DIAGNOSTICS)
+            mb_bad_frame_isr(mb_rx.flaws);
+        return;
+    }
+    if (MB_HAS_DIAGNOSTICS)
+        mb_diag.counter[MB_BUS_MESSAGE]++;
+    if (mb_adu[0] == 0 || mb_adu[0] == mb_port.address) {
+        mb_pdu_len = pdu_len;
+        mb_rx.flaws = 0;
+        mb_rx.state = MB_READY;
+    }
+}
+
+/* `last` goes round from FFH to 0 with the first octet of a frame; with a later one the frame is too long, and what
+ * that overwrites no longer matters. */
+void line_octet_isr(uint8_t octet, uint8_t err) IN_ISR
+{
+    if (MB_WITH_ASCII && mb_rx.state >= MB_COLON && mb_rx.state <= MB_END) {
+        mb_ascii_octet_isr(octet, err);
+        return;
+    }
+    if (mb_rx.state == MB_IDLE) {
+        mb_rx.state = MB_RECEPTION;
+        mb_rx.last = 0xFF;
+        mb_rx.flaws = 0;
+        mb_rx.crc = CRC16_START;
+        hal_silence(mb_rx.t15);
+    } else if (mb_rx.last == 0xFF) {
+        err |= MB_FLAW_LONG;
+    }
+    if (mb_rx.state == MB_RECEPTION) {
+        mb_rx.last++;
+        mb_adu[mb_rx.last] = octet;
+        mb_rx.crc = crc16_add(mb_rx.crc, octet);
+    } else {
+        err |= MB_FLAW_GAP;
+    }
+    mb_rx.flaws |= err;
+}
+
+/* A gap between 1.5 and 3.5 characters spoils the frame; it ends when the line has been silent for 3.5 after the
+ * last octet, whichever that was (the port measures from there). */
+void line_silence_isr(void) IN_ISR
+{
+    if (mb_rx.state == MB_RECEPTION) {
+        mb_rx.state = MB_CONTROL;
+        hal_silence(mb_rx.t35);
+    } else if (mb_rx.state == MB_CONTROL) {
+        const bool good = !mb_rx.flaws && mb_rx.last >= LAST_MIN && mb_rx.crc == 0;
+        mb_frame_end_isr(good ? (uint8_t)(mb_rx.last - CRC_LEN) : 0);
+    } else if (mb_rx.state == MB_INITIAL) {
+        mb_rx.state = MB_IDLE;
+    } /* else: an idle line, the limit is still set */
+}
+
+/* Our choice: the next frame may start at once, [S] figure 14 would wait t3.5 first. A client that keeps t3.5 sees
+ * no difference; one on a pty, that asks again as soon as it has its answer, is served. */
+void line_sent_isr(void) IN_ISR
+{
+    mb_rx.state = mb_idle_state;
+}
