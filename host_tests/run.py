@@ -88,7 +88,8 @@ def main(arguments):
             print(f"{verdict:4} {seconds:7.2f} s  {name}: {counts}" + (f": {why}" if why else ""), flush=True)
             reasons += [f"skip {name}: {reason or 'no reason given'}" for reason in IGNORED.findall(output)]
             if bad:
-                print("\n".join("     | " + line for line in output.splitlines()[-200:]), flush=True)
+                lines = [line for line in output.splitlines() if line.strip() and not line.endswith(":PASS")]
+                print("".join(f"     | {line}\n" for line in lines[-200:]), end="", flush=True)
     for reason in reasons:
         print(reason)
     print(f"{passed} passed, {failed} failed" + (f", {skipped} skipped" if skipped else ""))
