@@ -2,3 +2,5 @@
 
 UNIT_TESTS += test_hal_realtime
 test_hal_realtime_SRC = $(HAL_REALTIME)
+
+SCRIPT_TESTS += host_tests/station_cli.py host_tests/station_console.py host_tests/station_line.py
