@@ -9,6 +9,11 @@
  *   DEV_USER_PRM_MIN DEV_USER_PRM_MAX                    user parameter octets, 0..237
  *   DEV_EXT_DIAG_MAX       extended diagnosis octets, 0..238
  *   DEV_MIN_SLAVE_INTERVAL shortest time between two polls [100 us]
+ * and, for the GSD file only (gsd/gsd_main.c), which is made from the same header:
+ *   DEV_ORDER DEV_FAMILY   order number; Slave_Family as GSD writes it, "0@..."
+ *   DEV_USER_PRM(BIT, OCTET)  the user parameters a person may set: BIT(octet 0.., bit, default, text) for off/on,
+ *                          OCTET(octet, default, min, max, text); all other bits are sent as 0
+ *   DEV_DIAG_BITS(D)       D(bit, text): what bits of the device related block mean, bit 0 first after its header
  */
 #ifndef FIELDLING_CONFIG_H
 #define FIELDLING_CONFIG_H

@@ -2,3 +2,15 @@
 
 UNIT_TESTS += test_pa_frame
 test_pa_frame_SRC = firmware/fdl/pa_frame.c
+
+# ---- GSD: gsd/FLDL1234.GSD is committed; a test proves that it is what the configuration says ---------------
+
+PROGRAMS += fieldling-gsd
+fieldling-gsd_SRC    = gsd/gsd_main.c
+fieldling-gsd_CFLAGS = -DBOARD_RATES='"boards/posix/dp_rates.h"'
+
+.PHONY: gsd
+gsd: build/posix/fieldling-gsd
+	@name=$$($< --name) && $< >gsd/$$name && python3 gsd/check gsd/$$name
+
+SCRIPT_TESTS_ONCE += host_tests/gsd_check.py

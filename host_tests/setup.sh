@@ -9,7 +9,8 @@ say() { echo "setup: $*"; }
 # ---- packages of the distribution -------------------------------------------------------------------------
 PACKAGES="gcc libc6-dev make python3 python3-venv
 sdcc sdcc-ucsim clang clang-format libclang-rt-14-dev valgrind socat pkg-config
-gcc-arm-none-eabi libnewlib-arm-none-eabi libmodbus-dev mbpoll"
+gcc-arm-none-eabi libnewlib-arm-none-eabi libmodbus-dev mbpoll
+tshark sigrok-cli librsvg2-bin"
 
 # Only where there is no Rust yet; Debian 12's is new enough.
 find_cargo() {
@@ -88,6 +89,16 @@ build_profirust() {
     fi
 }
 
+# ---- gsdtool reads our GSD file as another program would. Without it that one test is skipped ----------------
+install_gsdtool() {
+    [ -x build/cargo/bin/gsdtool ] && return 0
+    cargo=$(find_cargo) || return 0
+    say "cargo install gsdtool 0.6.0"
+    mkdir -p build/cargo
+    nice "$cargo" install gsdtool --version 0.6.0 --locked -q -j1 --root build/cargo >build/cargo/install.log 2>&1 ||
+        tail -5 build/cargo/install.log >&2
+}
+
 mkdir -p build
 if command -v apt-get >/dev/null 2>&1; then
     install_packages
@@ -97,4 +108,5 @@ fi
 install_python
 install_unity
 build_profirust
+install_gsdtool
 say "ready"
