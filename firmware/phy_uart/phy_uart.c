@@ -108,6 +108,8 @@ void line_silence_isr(void) IN_ISR
 /* After our own answer the line has been silent for nobody yet: a request needs T_SYN, unless none can be seen. */
 void line_sent_isr(void) IN_ISR
 {
+    if (!line.sending)
+        return; /* the line was closed meanwhile */
     line.sending = false;
     hal_silence(t_syn);
     if (line.untimed)
@@ -167,6 +169,7 @@ void phy_reset(void)
     hal_silence(0);
     phy_rx.left = 0;
     line.waiting = false;
+    line.sending = false;
     line.transmitter = true;
     value_of[PHY_TRANSMITTER_OUTPUT] = PHY_ENABLED;
     value_of[PHY_RECEIVED_SIGNAL_SOURCE] = PHY_PRIMARY;
@@ -174,6 +177,19 @@ void phy_reset(void)
     value_of[PHY_BAUD_RATE] = BAUD_NONE;
     value_of[PHY_MEDIUM_RED] = PHY_NO_REDUNDANCY;
     min_t_sdr = T_SDR_DEFAULT_TBIT;
+    hal_irq_restore(irq);
+}
+
+/* An answer that waits for T_SDR is not sent either. */
+static void set_transmitter(uint8_t value)
+{
+    uint8_t irq = hal_irq_save();
+
+    line.transmitter = value == PHY_ENABLED;
+    if (!line.transmitter && line.waiting) {
+        line.waiting = false;
+        hal_silence(t_syn);
+    }
     hal_irq_restore(irq);
 }
 
@@ -197,7 +213,7 @@ uint8_t phy_set_value(uint8_t variable, uint8_t value)
         return PHY_IV;
     switch (variable) {
     case PHY_TRANSMITTER_OUTPUT:
-        line.transmitter = value == PHY_ENABLED;
+        set_transmitter(value);
         break;
     case PHY_LOOP:
         status = set_loop(value);
