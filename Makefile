@@ -47,11 +47,15 @@ asan_CC      := clang
 asan_CFLAGS  := -O1 -g -Ibuild/unity $(SANITIZE)
 asan_LDFLAGS := $(SANITIZE)
 
-# ---- the DP stack: x_SRC = $(DP_SRC) ..., x_DEFAULTS = $(DP_DEFAULTS) --------------------------------------
+# ---- the DP stack, for everybody's fragment ----------------------------------------------------------------
+#
+#   x_SRC = $(DP_STATION) ...     the stack and the application of DP-TEST01
+#   x_DEFAULTS = $(DP_DEFAULTS)   the defaults of its optional callbacks
 
-DP_ALL      := $(sort $(wildcard firmware/phy_uart/*.c firmware/fdl/*.c firmware/ddlm/*.c))
+DP_ALL      := $(filter-out %/pa_frame.c,$(wildcard firmware/phy_uart/*.c firmware/fdl/*.c firmware/ddlm/*.c))
 DP_DEFAULTS := $(filter %_default.c firmware/ddlm/default_%.c,$(DP_ALL))
 DP_SRC      := $(filter-out $(DP_DEFAULTS),$(DP_ALL))
+DP_STATION  := $(DP_SRC) boards/common/dp_test01_app.c
 
 include $(sort $(wildcard sim/*.mk boards/*/board.mk host_tests/*.mk))
 

@@ -4,10 +4,6 @@
 HAL_REALTIME = $(addprefix firmware/hal/posix/,hal_realtime.c line_pty.c line_tty.c nv_file.c con_stdio.c)
 HOST_STATION = $(HAL_REALTIME) boards/posix/options.c boards/posix/console.c
 
-DP_STATION  = $(wildcard firmware/phy_uart/*.c) $(filter-out %_default.c %/pa_frame.c,$(wildcard firmware/fdl/*.c)) \
-              $(filter-out firmware/ddlm/default_%,$(wildcard firmware/ddlm/*.c)) boards/common/dp_test01_app.c
-DP_DEFAULTS = $(wildcard firmware/fdl/*_default.c firmware/ddlm/default_*.c)
-
 PROGRAMS += fieldling-dp
 fieldling-dp_SRC      = boards/posix/fieldling_dp.c boards/posix/dp_trace.c boards/posix/dp_words.c $(HOST_STATION) \
                         $(DP_STATION) sim/telegram.c
