@@ -1,7 +1,10 @@
 /* The machine around the line: interrupt controllers, time, console UART, non-volatile cells. */
 #include "hal_board.h"
 #include "hal/hal.h"
+#include "hal/line_uart.h"
 #include "hal/x86/pc.h"
+
+#define WAKE_COUNTS 11932u /* 10 ms: the main loop sees the milliseconds go by */
 
 #define CONSOLE_BUFFER 64u
 
@@ -150,7 +153,7 @@ void hal_idle(void)
     uint8_t irq = hal_irq_save();
 
     if (!pc_had_irq) {
-        pc_wake_isr();
+        line_uart_wake(WAKE_COUNTS);
         __asm__ volatile("sti; hlt" : : : "memory");
         (void)hal_irq_save();
     }

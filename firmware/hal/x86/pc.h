@@ -93,9 +93,6 @@ void pc_console_isr(void);
 /* An interrupt has come since this was cleared. */
 extern volatile bool pc_had_irq;
 
-/* See to it that the timer interrupts within 10 ms, so that a halted main loop sees the milliseconds go by. lock. */
-void pc_wake_isr(void);
-
 /* Free-running count of channel 2, 1.193182 MHz, wraps at 65536. lock, isr. */
 uint16_t pc_now_isr(void);
 

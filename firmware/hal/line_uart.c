@@ -1,0 +1,208 @@
+#include "hal/line_uart.h"
+#include "uart.h"
+
+enum use { TIMER_OFF, TIMER_SILENCE, TIMER_DRAIN, TIMER_WAKE };
+
+/* Invariants: limit == 0 switches the silence clock off; reported is set from line_silence_isr() until the next octet
+ * or limit; tx.at[0..tx.left-1] is what has not gone into the transmitter yet. */
+static volatile uint8_t timer_use;
+static hal_dur_t limit;
+static hal_dur_t last_octet; /* timer_now() at the end of the last one, or when the line was opened */
+static bool reported;
+static bool loop;
+
+static struct {
+    const uint8_t *at;
+    uint16_t left;
+    bool busy;
+} tx;
+
+static uint32_t counts_per_bit_256; /* 24.8 fixed point */
+static hal_dur_t bit_counts;
+static hal_dur_t char_counts;
+
+/* ---- silence ------------------------------------------------------------------------------------------------------------ */
+
+static void start_isr(uint8_t use, hal_dur_t counts)
+{
+    timer_use = use;
+    timer_start(counts);
+}
+
+static void stop_isr(void)
+{
+    timer_use = TIMER_OFF;
+    timer_stop();
+}
+
+/* Run the timer for what is left of the limit since the last octet. */
+static void arm_isr(void)
+{
+    hal_dur_t gone = (hal_dur_t)(timer_now() - last_octet);
+
+    if (limit == 0 || reported)
+        stop_isr();
+    else
+        start_isr(TIMER_SILENCE, gone < limit ? (hal_dur_t)(limit - gone) : 1u);
+}
+
+static void octet_ended_isr(void)
+{
+    last_octet = timer_now();
+    reported = false;
+    arm_isr();
+}
+
+void hal_silence(hal_dur_t d)
+{
+    limit = d;
+    reported = false;
+    if (!tx.busy)
+        arm_isr();
+}
+
+void line_uart_wake(hal_dur_t counts)
+{
+    if (timer_use == TIMER_OFF)
+        start_isr(TIMER_WAKE, counts);
+}
+
+/* ---- receiver ------------------------------------------------------------------------------------------------------------ */
+
+/* Everything the receiver holds, to the stack. -> an octet came. */
+static bool drain_isr(void)
+{
+    bool any = false;
+    uint8_t octet;
+    uint8_t err;
+
+    while (uart_rx(&octet, &err)) {
+        if (tx.busy && !loop)
+            continue; /* our own */
+        any = true;
+        if (!tx.busy)
+            octet_ended_isr();
+        line_octet_isr(octet, err);
+    }
+    return any;
+}
+
+void line_uart_rx_isr(void)
+{
+    drain_isr();
+}
+
+/* ---- transmitter --------------------------------------------------------------------------------------------------------- */
+
+static void fill_isr(void)
+{
+    uint16_t room = uart_tx_room();
+
+    while (room-- && tx.left) {
+        uart_tx(*tx.at++);
+        tx.left--;
+    }
+}
+
+void hal_send(const uint8_t *octets, uint16_t n)
+{
+    stop_isr();
+    tx.at = octets;
+    tx.left = n;
+    tx.busy = true;
+    uart_driver(true);
+    fill_isr();
+    uart_tx_irq(true);
+}
+
+static void sent_isr(void)
+{
+    if (loop)
+        drain_isr();
+    uart_driver(false);
+    tx.busy = false;
+    octet_ended_isr();
+    line_sent_isr();
+}
+
+/* With nothing left to give, the transmitter interrupt has no more to say: the timer asks when the last stop bit is
+ * out, after one character and then after each bit. */
+void line_uart_tx_isr(void)
+{
+    if (!tx.busy || timer_use == TIMER_DRAIN)
+        return;
+    if (tx.left) {
+        fill_isr();
+        return;
+    }
+    uart_tx_irq(false);
+    if (uart_tx_idle())
+        sent_isr();
+    else
+        start_isr(TIMER_DRAIN, char_counts);
+}
+
+/* ---- timer --------------------------------------------------------------------------------------------------------------- */
+
+static void drained_isr(void)
+{
+    if (uart_tx_idle())
+        sent_isr();
+    else
+        start_isr(TIMER_DRAIN, bit_counts);
+}
+
+void line_uart_timer_isr(void)
+{
+    uint8_t use = timer_use;
+
+    timer_use = TIMER_OFF;
+    if (use == TIMER_DRAIN) {
+        drained_isr();
+    } else if (use == TIMER_SILENCE && !drain_isr()) {
+        reported = true;
+        line_silence_isr();
+    }
+}
+
+/* ---- opening -------------------------------------------------------------------------------------------------------------- */
+
+static const uint8_t char_bits[HAL_FORMATS] = {
+    [HAL_8E1] = 11, [HAL_8O1] = 11, [HAL_8N2] = 11, [HAL_8N1] = 10, [HAL_7E1] = 10, [HAL_7O1] = 10, [HAL_7N2] = 10,
+};
+
+uint8_t hal_line_open(uint32_t bit_per_s, uint8_t format)
+{
+    uint8_t kind = format & (uint8_t)~HAL_LOOP;
+    uint8_t irq;
+
+    if (bit_per_s == 0 || kind >= HAL_FORMATS)
+        return HAL_LINE_NO;
+    irq = hal_irq_save();
+    if (!uart_open(bit_per_s, format)) {
+        hal_irq_restore(irq);
+        return HAL_LINE_NO;
+    }
+    stop_isr();
+    limit = 0;
+    reported = false;
+    tx.left = 0;
+    tx.busy = false;
+    loop = (format & HAL_LOOP) != 0;
+    counts_per_bit_256 = (uint32_t)(TIMER_HZ / bit_per_s) << 8;
+    counts_per_bit_256 += ((TIMER_HZ % bit_per_s) << 8) / bit_per_s;
+    bit_counts = hal_tbit(1);
+    char_counts = hal_tbit(char_bits[kind]);
+    last_octet = timer_now();
+    hal_irq_restore(irq);
+    return HAL_LINE_TIMED;
+}
+
+hal_dur_t hal_tbit(uint16_t n)
+{
+    const hal_dur_t most = (hal_dur_t)~(hal_dur_t)0;
+    uint32_t whole = (counts_per_bit_256 >> 8) * n;
+    uint32_t counts = whole + (((counts_per_bit_256 & 0xFFu) * n + 0xFFu) >> 8);
+
+    return counts > most ? most : (hal_dur_t)counts;
+}

@@ -1,0 +1,42 @@
+/* The line of hal.h over a plain UART and a one-shot timer: what a port with such hardware has to supply, and what it
+ * gets for it.
+ *
+ * Most UARTs tell when a character has come and when there is room for the next, but not when the last stop bit is out.
+ * line_uart.c makes of that and of one timer the line that hal.h promises: silence measured from the last octet, the
+ * receiver looked at before a silence is reported, sending without a gap, the driver dropped by the timer when the shift
+ * register is empty. A port is then the functions below, in a header "uart.h" of its architecture (static inline, so
+ * that an interrupt pays for no call), and its interrupt handlers.
+ */
+#ifndef FIELDLING_HAL_LINE_UART_H
+#define FIELDLING_HAL_LINE_UART_H
+
+#include "hal/hal.h"
+
+/* What "uart.h" defines. All isr, lock unless it says main.
+ *
+ *   bool uart_open(uint32_t bit_per_s, uint8_t format)   main, lock. Set rate and format (HAL_LOOP or'ed in), receiver
+ *                      and its interrupt on, transmitter interrupt and driver off; false: cannot, nothing changed.
+ *                      Refuses what is off by more than 0.3 % (EN 50170-2 part 2).
+ *   bool uart_rx(uint8_t *octet, uint8_t *err)           take one received octet; false: there is none
+ *   uint16_t uart_tx_room(void)                          octets that fit now, at least 1 in a transmitter interrupt
+ *   void uart_tx(uint8_t octet)                          one octet into the transmitter
+ *   void uart_tx_irq(bool on)                            the interrupt that says there is room
+ *   bool uart_tx_idle(void)                              the last stop bit is out
+ *   void uart_driver(bool on)                            RS-485 driver enable
+ *
+ *   hal_dur_t timer_now(void)                            free running, counts of hal_dur_t, wraps at its width
+ *   void timer_start(hal_dur_t counts)                   one-shot; restarts if running; 1 fires at once
+ *   void timer_stop(void)                                even if its interrupt is pending
+ *   TIMER_HZ                                             counts a second
+ */
+
+/* To be called by the interrupt handlers: the UART has an octet; the UART has room; the timer has run out. isr. */
+void line_uart_rx_isr(void);
+void line_uart_tx_isr(void);
+void line_uart_timer_isr(void);
+
+/* See to it that the timer interrupts within `counts` unless it runs already, so that a sleeping main loop sees time
+ * go by. lock. */
+void line_uart_wake(hal_dur_t counts);
+
+#endif
