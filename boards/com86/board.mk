@@ -5,7 +5,7 @@ COM86_CC = gcc -m32 -march=i386 -Os -std=gnu99 -ffreestanding -fno-pic -fno-stac
            -Wall -Wextra -Wconversion -Werror -Ifirmware -Ifirmware/hal/x86 -Iboards/com86 -Iboards/common
 COM86_LD = -nostdlib -static -no-pie -Wl,--build-id=none,--gc-sections,--no-warn-rwx-segments,-T,boards/com86/rom.ld,-Map,$(@:.elf=.map)
 
-COM86_PORT = $(addprefix boards/com86/,start.S board.c) firmware/hal/line_uart.c $(wildcard firmware/hal/x86/*.c)
+COM86_PORT = $(addprefix boards/com86/,start.S board.c) firmware/hal/line_uart.c firmware/hal/nv_log.c $(wildcard firmware/hal/x86/*.c)
 COM86_DP   = $(COM86_PORT) boards/com86/main_dp.c boards/common/dp_console.c $(DP_STATION)
 
 build/com86/dp/%.o: %.c

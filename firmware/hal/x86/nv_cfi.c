@@ -1,15 +1,9 @@
-/* Non-volatile cells in the flash that also holds the program: Intel command set (CFI 0001). While a command runs the
- * flash reads as status, so these routines and all they call run from RAM, with interrupts masked.
- *
- * One sector holds the cells as a log of records, so that a change of one cell costs a program operation, and an erase
- * only when the sector is full:
- *
- *   record = index, value, ~index ^ value     erased = FF FF FF: end of the log
- */
+/* The page of nv_log.h in the flash that also holds the program: Intel command set (CFI 0001). While a command runs, the
+ * whole flash reads as status, so these routines run from RAM, with interrupts masked. */
+#include "hal/nv_log.h"
 #include "hal_board.h"
-#include "hal/hal.h"
 
-#define IN_RAM __attribute__((section(".data.code"), noinline))
+#define IN_RAM __attribute__((section(".ramcode"), noinline))
 
 #define CMD_ERASE      0x20u
 #define CMD_ERASE_SURE 0xD0u
@@ -19,20 +13,21 @@
 #define STATUS_READY   0x80u
 #define STATUS_FAILED  0x38u
 
-#define RECORD  3u
-#define RECORDS (BOARD_NV_SECTOR_LEN / RECORD)
+const uint16_t nv_page_words = BOARD_NV_SECTOR_LEN / 4u;
 
-static volatile uint8_t *sector(void)
+static volatile uint8_t *octet_at(uint16_t n, uint8_t i)
 {
-    return (volatile uint8_t *)BOARD_NV_SECTOR;
+    return (volatile uint8_t *)(BOARD_NV_SECTOR + 4u * n + i);
 }
 
-/* Bounded: a flash that never gets ready has failed. -> ready without an error. */
-static IN_RAM bool finish(volatile uint8_t *at)
+/* Give a command and its second octet; wait until ready. Bounded: a flash that never gets ready has failed. */
+static IN_RAM bool command(volatile uint8_t *at, uint8_t first, uint8_t second)
 {
     uint32_t patience = BOARD_NV_PATIENCE;
     uint8_t status;
 
+    *at = first;
+    *at = second;
     do {
         status = *at;
     } while (!(status & STATUS_READY) && --patience);
@@ -41,88 +36,27 @@ static IN_RAM bool finish(volatile uint8_t *at)
     return (status & STATUS_READY) && !(status & STATUS_FAILED);
 }
 
-static IN_RAM bool erase(volatile uint8_t *at)
+uint32_t nv_page_read(uint16_t n)
 {
-    *at = CMD_ERASE;
-    *at = CMD_ERASE_SURE;
-    return finish(at);
-}
-
-static IN_RAM bool program(volatile uint8_t *at, uint8_t value)
-{
-    *at = CMD_PROGRAM;
-    *at = value;
-    return finish(at) && *at == value;
-}
-
-static uint8_t check_of(uint8_t index, uint8_t value)
-{
-    return (uint8_t)(~index ^ value);
-}
-
-static bool is_end(const volatile uint8_t *record)
-{
-    return record[0] == 0xFFu && record[1] == 0xFFu && record[2] == 0xFFu;
-}
-
-/* First free record, RECORDS when the sector is full. */
-static uint16_t log_end(void)
-{
-    uint16_t n = 0;
-
-    while (n < RECORDS && !is_end(sector() + n * RECORD))
-        n++;
-    return n;
-}
-
-/* The newest good record of a cell wins; one half written when power failed is passed over. */
-uint8_t hal_nv_read(uint8_t index)
-{
-    const volatile uint8_t *record = sector();
-    uint16_t n = log_end();
-    uint8_t value = 0xFF;
-
-    for (; n; n--, record += RECORD)
-        if (record[0] == index && record[2] == check_of(index, record[1]))
-            value = record[1];
-    return value;
-}
-
-static bool append(uint16_t n, uint8_t index, uint8_t value)
-{
-    volatile uint8_t *record = sector() + n * RECORD;
-
-    return program(record, index) && program(record + 1, value) && program(record + 2, check_of(index, value));
-}
-
-/* The sector is full: keep what the cells hold, and begin anew. */
-static bool compact(void)
-{
-    uint8_t cells[HAL_NV_SIZE];
+    uint32_t word = 0;
     uint8_t i;
 
-    for (i = 0; i < HAL_NV_SIZE; i++)
-        cells[i] = hal_nv_read(i);
-    if (!erase(sector()))
-        return false;
-    for (i = 0; i < HAL_NV_SIZE; i++)
-        if (cells[i] != 0xFFu && !append(log_end(), i, cells[i]))
-            return false;
-    return true;
+    for (i = 4; i; i--)
+        word = word << 8 | *octet_at(n, (uint8_t)(i - 1u));
+    return word;
 }
 
-bool hal_nv_write(uint8_t index, uint8_t value)
+bool nv_page_program(uint16_t n, uint32_t word)
 {
-    uint8_t irq;
-    bool good;
+    uint8_t i;
 
-    if (index >= HAL_NV_SIZE)
-        return false;
-    if (hal_nv_read(index) == value)
-        return true;
-    irq = hal_irq_save();
-    good = log_end() < RECORDS || compact();
-    good = good && append(log_end(), index, value);
-    hal_irq_restore(irq);
-    return good && hal_nv_read(index) == value;
+    for (i = 0; i < 4; i++)
+        if (!command(octet_at(n, i), CMD_PROGRAM, (uint8_t)(word >> (8u * i))))
+            return false;
+    return nv_page_read(n) == word;
+}
+
+bool nv_page_erase(void)
+{
+    return command(octet_at(0, 0), CMD_ERASE, CMD_ERASE_SURE) && nv_page_read(0) == 0xFFFFFFFFu;
 }
