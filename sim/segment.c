@@ -125,28 +125,30 @@ static void judge_gap(struct seg_party *p)
 
 /* ---- levels: a wrong rate, or a test that writes them ------------------------------------------------- */
 
-static void hear(void *party, uint32_t bit);
+static void hear(void *party, uint32_t wave);
 
 /* Look for the next start bit that the station's receiver sees. */
 static void listen(struct seg_party *p)
 {
     struct uart_octet o;
-    const hv_time bit = hv_bit();
-    p->hearing = bit && uart_next(&p->wave, p->resume, bit, &o);
+    p->rx_bit = hv_bit();
+    p->hearing = p->rx_bit && uart_next(&p->wave, p->resume, p->rx_bit, &o);
     if (p->hearing)
-        hv_at(p->wave_start + o.end, hear, p, (uint32_t)bit);
+        hv_at(p->wave_start + o.end, hear, p, p->waves);
     else
         p->resume = p->wave.n * p->wave.bit;
 }
 
-/* A character, begun with a bit time of `bit`, is over at the station's receiver. */
-static void hear(void *party, uint32_t bit)
+/* A character is over at the station's receiver. */
+static void hear(void *party, uint32_t wave)
 {
     struct seg_party *const p = party;
     struct uart_octet o;
-    if (bit != hv_bit()) { /* re-opened meanwhile: listens from here */
+    if (wave != p->waves)
+        return; /* the talker changed its rate meanwhile */
+    if (p->rx_bit != hv_bit()) { /* re-opened meanwhile: listens from here */
         p->resume = hv_now() - p->wave_start;
-    } else if (uart_next(&p->wave, p->resume, bit, &o)) {
+    } else if (uart_next(&p->wave, p->resume, p->rx_bit, &o)) {
         p->resume = o.resume;
         hv_receive(o.octet, (uint8_t)((o.parity_error ? HAL_ERR_PARITY : 0u) |
                                       (o.framing_error ? HAL_ERR_FRAMING : 0u)));
@@ -154,20 +156,34 @@ static void hear(void *party, uint32_t bit)
     listen(p);
 }
 
+/* Levels heard are forgotten when room is needed: a receiver at 9600 bit/s takes 13750 levels of a talker at
+ * 12 Mbit/s for one character. */
+static void make_room(struct seg_party *p, hv_time n)
+{
+    if (p->wave.n + n <= SEG_LEVELS)
+        return;
+    const unsigned heard = (unsigned)(p->resume / p->bit);
+    p->wave.n -= heard;
+    p->wave_start += heard * p->bit;
+    p->resume -= heard * p->bit;
+    memmove(p->level, p->level + heard, p->wave.n);
+    if (p->wave.n + n > SEG_LEVELS)
+        hv_on_failure("segment: no room for levels");
+}
+
 static void add_levels(struct seg_party *p, const uint8_t *level, unsigned n)
 {
-    if (!p->hearing) {
+    if (!p->hearing || p->wave.bit != p->bit) {
+        p->waves++;
+        p->hearing = false;
         p->wave = (struct uart_wave){p->level, 0, p->bit};
         p->wave_start = hv_now();
         p->resume = 0;
     }
-    if (p->wave.n + n > SEG_LEVELS) { /* forget what has been heard */
-        const unsigned heard = (unsigned)(p->resume / p->bit);
-        p->wave.n -= heard;
-        p->wave_start += heard * p->bit;
-        p->resume -= heard * p->bit;
-        memmove(p->level, p->level + heard, p->wave.n);
-    }
+    const hv_time idle = (hv_now() - p->wave_start) / p->bit - p->wave.n;
+    make_room(p, idle + n);
+    memset(p->level + p->wave.n, 1, (size_t)idle);
+    p->wave.n += (unsigned)idle;
     memcpy(p->level + p->wave.n, level, n);
     p->wave.n += n;
     if (!p->hearing)

@@ -26,7 +26,7 @@ enum seg_rule {
     SEG_RULES
 };
 
-#define SEG_LEVELS 4096u
+#define SEG_LEVELS 32768u
 
 struct seg_party {
     const char *name;
@@ -45,7 +45,8 @@ struct seg_party {
     bool asked;                       /* frame[0] came after a request that wants an answer */
     struct uart_wave wave;            /* what a receiver of another rate hears it from */
     uint8_t level[SEG_LEVELS];
-    hv_time wave_start, resume;
+    hv_time wave_start, resume, rx_bit;
+    uint32_t waves;
     bool hearing;
 };
 
