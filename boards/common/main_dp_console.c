@@ -1,4 +1,4 @@
-/* COM86 as DP-TEST01: fieldbus on COM2, console on COM1. */
+/* DP-TEST01 for boards with a console: what its modules read and drive is seen and set there. */
 #include "board.h"
 #include "dp_console.h"
 #include "dp_test01_app.h"

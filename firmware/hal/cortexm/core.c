@@ -1,0 +1,165 @@
+#include "hal/cortexm/core.h"
+#include "hal/line_uart.h"
+#include "hal_board.h"
+#include "uart.h"
+
+#define SYST_CSR 0xE000E010u
+#define SYST_RVR 0xE000E014u
+#define SYST_CVR 0xE000E018u
+#define SYST_ON_CORE_CLOCK 5u
+#define SYST_TOP 0xFFFFFFu
+
+#define AIRCR           0xE000ED0Cu
+#define AIRCR_RESET_REQ 0x05FA0004u
+
+#define WAKE_MS        10u
+#define CONSOLE_BUFFER 64u
+
+static uint8_t buffer[CONSOLE_BUFFER]; /* console input; in: interrupt, out: main loop, one octet each */
+static volatile uint8_t buffer_in;
+static volatile uint8_t buffer_out;
+
+static volatile bool interrupted;
+static uint32_t clocks;
+static uint32_t last_count = SYST_TOP;
+static uint32_t last_clocks; /* at the last whole millisecond */
+static uint16_t ms;
+
+/* ---- time ----------------------------------------------------------------------------------------------------------- */
+
+uint32_t core_clocks_isr(void)
+{
+    uint32_t count = REG(SYST_CVR);
+
+    clocks += (last_count - count) & SYST_TOP;
+    last_count = count;
+    return clocks;
+}
+
+uint16_t hal_ticks(void)
+{
+    uint8_t irq = hal_irq_save();
+    uint32_t now = core_clocks_isr();
+
+    while (now - last_clocks >= BOARD_CORE_HZ / 1000u) {
+        last_clocks += BOARD_CORE_HZ / 1000u;
+        ms++;
+    }
+    hal_irq_restore(irq);
+    return ms;
+}
+
+/* ---- machine --------------------------------------------------------------------------------------------------------- */
+
+void hal_init(void)
+{
+    (void)hal_irq_save();
+    REG(SYST_RVR) = SYST_TOP;
+    REG(SYST_CVR) = 0;
+    REG(SYST_CSR) = SYST_ON_CORE_CLOCK;
+    part_init();
+}
+
+uint8_t hal_irq_save(void)
+{
+    uint32_t primask;
+
+    __asm__ volatile("mrs %0, primask\n cpsid i" : "=r"(primask) : : "memory");
+    return (uint8_t)((primask & 1u) ? 0u : HAL_IRQ_ON);
+}
+
+void hal_irq_restore(uint8_t state)
+{
+    if (state)
+        __asm__ volatile("cpsie i" : : : "memory");
+}
+
+void core_interrupted_isr(void)
+{
+    interrupted = true;
+}
+
+/* wfi ends with a pending interrupt even while masked, so nothing is missed between the look and the sleep. */
+void hal_idle(void)
+{
+    uint8_t irq = hal_irq_save();
+
+    if (!interrupted) {
+        line_uart_wake(WAKE_MS * (TIMER_HZ / 1000u));
+        __asm__ volatile("wfi" : : : "memory");
+    }
+    interrupted = false;
+    hal_irq_restore(irq);
+    (void)hal_ticks();
+}
+
+/* ---- console ---------------------------------------------------------------------------------------------------------- */
+
+void core_console_isr(uint8_t octet)
+{
+    uint8_t next = (uint8_t)((buffer_in + 1u) % CONSOLE_BUFFER);
+
+    if (next == buffer_out)
+        return;
+    buffer[buffer_in] = octet;
+    buffer_in = next;
+}
+
+int16_t hal_con_get(void)
+{
+    uint8_t octet;
+
+    if (buffer_out == buffer_in)
+        return -1;
+    octet = buffer[buffer_out];
+    buffer_out = (uint8_t)((buffer_out + 1u) % CONSOLE_BUFFER);
+    return octet;
+}
+
+void hal_con_put(uint8_t octet)
+{
+    part_console_put(octet);
+}
+
+/* ---- reset and vectors --------------------------------------------------------------------------------------------------- */
+
+void core_reset(void)
+{
+    REG(AIRCR) = AIRCR_RESET_REQ;
+    for (;;) {
+    }
+}
+
+extern uint32_t data_load[], data_start[], data_end[], bss_start[], bss_end[], stack_bottom[], stack_top[];
+int main(void);
+
+/* Data, zeros, and the stack painted for its high-water mark. */
+void core_start(void)
+{
+    const uint32_t *from = data_load;
+    uint32_t *to;
+    uint32_t *sp;
+
+    __asm__ volatile("mov %0, sp" : "=r"(sp));
+    for (to = data_start; to < data_end; to++)
+        *to = *from++;
+    for (to = bss_start; to < bss_end; to++)
+        *to = 0;
+    for (to = stack_bottom; to < sp - 16; to++)
+        *to = 0xA5A5A5A5u;
+    main();
+    core_reset();
+}
+
+/* A fault is our bug, like a failed ASSERT. */
+static void fault(void)
+{
+    hal_reset(HAL_RESET_ASSERT);
+}
+
+typedef void (*vector)(void);
+extern const vector part_vectors[]; /* of the part, behind the sixteen of the core */
+
+__attribute__((section(".vectors"), used)) static const vector core_vectors[16] = {
+    (vector)(uintptr_t)stack_top, core_start, fault, fault, fault, fault, fault,
+};
