@@ -5,7 +5,6 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 
 from raw_master import STATUS, RawMaster
 from station import PATIENCE, Station, expect, run_tests
@@ -82,21 +81,33 @@ def test_the_link_leads_to_a_terminal_and_goes_with_the_station():
             expect("the link", os.path.lexists(station.pty), False)
 
 
+class Plain:
+    """The program without Station: its streams, its line at path, ready when this returns."""
+
+    def __init__(self, path):
+        self.process = subprocess.Popen([PROGRAM, "--line", "pty:" + path, "--address", "8"], stdin=subprocess.PIPE,
+                                        stdout=subprocess.PIPE, text=True)
+        self.process.stdin.write("out\n")
+        self.process.stdin.flush()
+        expect("first answer", self.process.stdout.readline(), "out=0000\n")
+
+    def __enter__(self):
+        return self.process
+
+    def __exit__(self, *_):
+        self.process.terminate()
+        expect("exit status", self.process.wait(PATIENCE), 0)
+        self.process.stdin.close()
+        self.process.stdout.close()
+
+
 def test_the_link_of_a_killed_station_is_replaced():
     with Station("fieldling-dp", "--address", "8") as first:
         first.process.kill()
         first.process.wait(PATIENCE)
         expect("is left", os.path.islink(first.pty), True)
-        second = subprocess.Popen([PROGRAM, "--line", "pty:" + first.pty, "--address", "8"], stdin=subprocess.DEVNULL)
-        try:
-            end = time.monotonic() + PATIENCE
-            while not os.path.exists(first.pty) and time.monotonic() < end:
-                time.sleep(0.001)
-            with RawMaster(first.pty) as master:
-                master.ask(*STATUS)
-        finally:
-            second.terminate()
-            expect("exit status", second.wait(PATIENCE), 0)
+        with Plain(first.pty), RawMaster(first.pty) as master:
+            master.ask(*STATUS)
         expect("the link", os.path.lexists(first.pty), False)
 
 
@@ -132,27 +143,17 @@ def test_the_end_of_the_input_does_not_end_the_station():
 
 
 def test_a_console_that_nobody_reads_does_not_hold_the_station_up():
-    with tempfile.TemporaryDirectory() as folder:
-        path = f"{folder}/line"
+    with tempfile.TemporaryDirectory() as folder, Plain(f"{folder}/line") as process:
         # 1 MB of trace into a pipe that is never read, then into one that is closed
-        with subprocess.Popen([PROGRAM, "--line", "pty:" + path, "--address", "8"], stdin=subprocess.PIPE,
-                              stdout=subprocess.PIPE) as process:
-            try:
-                end = time.monotonic() + PATIENCE
-                while not os.path.exists(path) and time.monotonic() < end:
-                    time.sleep(0.001)
-                process.stdin.write(b"trace on\n")
-                process.stdin.flush()
-                with RawMaster(path) as master:
-                    for _ in range(5000):
-                        master.ask(*STATUS)
-                    process.stdout.close()
-                    for _ in range(100):
-                        master.ask(*STATUS)
-                expect("still there", process.poll(), None)
-            finally:
-                process.terminate()
-            expect("exit status", process.wait(PATIENCE), 0)
+        process.stdin.write("trace on\n")
+        process.stdin.flush()
+        with RawMaster(f"{folder}/line") as master:
+            for _ in range(5000):
+                master.ask(*STATUS)
+            process.stdout.close()
+            for _ in range(100):
+                master.ask(*STATUS)
+        expect("still there", process.poll(), None)
 
 
 if __name__ == "__main__":
