@@ -123,6 +123,7 @@ ASAN_TESTS     := $(addprefix build/asan/,$(UNIT_TESTS))
         $(BENCHES) $(SIZES) $(STATIC)
 
 all: $(POSIX_PROGRAMS)
+	@:
 
 setup:
 	@sh host_tests/setup.sh
@@ -132,9 +133,13 @@ run: setup
 	@$(MAKE) --no-print-directory run-$(PROTOCOL)
 
 build-tests: $(POSIX_PROGRAMS) $(TEST_PROGRAMS)
+	@:
 build-asan: $(ASAN_PROGRAMS) $(ASAN_TESTS)
+	@:
 boards: $(BOARD_IMAGES)
+	@:
 static: $(STATIC)
+	@:
 
 test: setup
 	@$(MAKE) --no-print-directory $J build-tests build-asan boards static
