@@ -8,7 +8,7 @@ say() { echo "setup: $*"; }
 
 # ---- packages of the distribution -------------------------------------------------------------------------
 PACKAGES="gcc libc6-dev make python3 python3-venv
-sdcc sdcc-ucsim clang clang-format libclang-rt-14-dev valgrind socat pkg-config
+sdcc sdcc-ucsim clang clang-format valgrind socat pkg-config
 gcc-arm-none-eabi libnewlib-arm-none-eabi libmodbus-dev mbpoll
 tshark sigrok-cli librsvg2-bin"
 
@@ -17,7 +17,14 @@ find_cargo() {
     command -v cargo || { [ -x "$HOME/.cargo/bin/cargo" ] && echo "$HOME/.cargo/bin/cargo"; }
 }
 
+# The sanitizers' run time goes with the version of clang that the distribution has.
+clang_runtime() {
+    version=$(apt-cache depends clang 2>/dev/null | sed -n 's/.*Depends: clang-\([0-9]*\)$/\1/p')
+    [ -z "$version" ] || echo "libclang-rt-$version-dev"
+}
+
 install_packages() {
+    PACKAGES="$PACKAGES $(clang_runtime)"
     find_cargo >/dev/null || PACKAGES="$PACKAGES cargo"
     missing=
     for package in $PACKAGES; do
