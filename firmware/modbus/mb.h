@@ -97,7 +97,7 @@ enum mb_exception {
     MB_MEMORY_PARITY,
 };
 
-/* Once per range, after it was found in mb_map and before any item is read or changed. Of a write, mb_span_get()
+/* Asked for each range, with functions 20 and 21 twice, after it was found in mb_map and before any item is read or changed. Of a write, mb_span_get()
  * gives the new values. -> MB_OK, or the exception that refuses the whole request. May update
  * what is about to be read. Default: MB_OK. */
 uint8_t mb_check_ind(void);
@@ -161,8 +161,8 @@ extern struct mb_frame XDATA mb_frame;
  * not 1..qty_max (exception 3, which comes before the address is looked at, [A] 6). */
 uint8_t mb_range(uint8_t table, uint16_t qty_max);
 
-/* The range in mb_span: check() looks at the blocks and asks mb_check_ind(), changing nothing; move() copies the
- * values between blocks and mb_span.octets; access() does both. -> MB_OK or an exception. */
+/* The range in mb_span: check() finds its block and asks mb_check_ind(), changing nothing; move() copies the values
+ * between mb_span.octets and the block that check() found last; access() does both. -> MB_OK or an exception. */
 uint8_t mb_check(void);
 uint8_t mb_move(void);
 uint8_t mb_access(void);

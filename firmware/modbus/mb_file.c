@@ -35,7 +35,7 @@ static uint8_t take_group(const uint8_t XDATA *p, uint8_t left)
 static uint8_t check_or_move(bool move)
 {
     if (move)
-        return mb_move();
+        return mb_access();
     if (mb_span.addr > RECORD_MAX || mb_span.qty - 1u > RECORD_MAX - mb_span.addr)
         return MB_ILLEGAL_ADDRESS;
     return mb_check();

@@ -1,0 +1,13 @@
+# Modbus: unit tests in virtual time, the host station against foreign clients, figures.
+
+MB_STATION  = firmware/crc16.c $(wildcard firmware/modbus/mb_*.c)
+MB_DEFAULTS = $(wildcard firmware/modbus/default_*.c)
+
+MB_UNIT_TESTS = test_modbus_functions test_modbus_line
+define mb_unit_test
+UNIT_TESTS += $1
+$1_SRC      = host_tests/modbus_fixture.c sim/modbus_client.c $$(HAL_VIRTUAL) $$(MB_STATION)
+$1_DEFAULTS = $$(MB_DEFAULTS)
+$1_CFLAGS   = -DMB_CONFIG='"host_tests/mb_test.h"'
+endef
+$(foreach t,$(MB_UNIT_TESTS),$(eval $(call mb_unit_test,$t)))

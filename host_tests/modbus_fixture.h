@@ -1,0 +1,44 @@
+/* A Modbus server with known contents on the virtual line, and a client to ask it in hexadecimal. */
+#ifndef MODBUS_FIXTURE_H
+#define MODBUS_FIXTURE_H
+
+#include "modbus/mb.h"
+#include "sim/modbus_client.h"
+
+extern struct mbc client;
+
+/* The tables. Addresses are those of the examples of [A] and of the source document (spec B6). */
+extern uint8_t coils_13[5], coils_ac[4], coils_big[250], inputs_c4[3], inputs_big[250];
+extern uint16_t holding_0[32], holding_6b[3], holding_big[125], inputs_8[1], input_regs_big[125];
+extern uint16_t fifo_4de[32], fifo_bad[32], fifo_short[4], file_3[16], file_4[16], file_9[128];
+
+/* What the application does. */
+struct fixture {
+    uint8_t veto;      /* mb_check_ind() answers this to writes ...        */
+    uint8_t read_veto; /* ... and this to reads                            */
+    unsigned checks, writes;
+    struct mb_span last;   /* of the last write done                           */
+    uint16_t callback[4];  /* holding registers 0200H..0203H, by mb_block_ind  */
+    uint8_t callback_bits; /* coils 0300H..0307H likewise                      */
+    uint8_t status;        /* function 07                                      */
+    bool busy;             /* functions 11, 12                                 */
+    unsigned restarts;
+    unsigned locks, unlocks;
+    hv_time spend; /* executing a write takes this long                */
+};
+extern struct fixture fx;
+
+/* A fresh station at `address` and 19200 bit/s, contents as above, counters 0, after t3.5 of silence. */
+void fixture_begin(uint8_t address, uint8_t mode);
+
+/* Send the body (address and PDU, "11 03 00 6B ..."), wait, and compare with the expected body; NULL: silence. */
+void ask(const char *request, const char *answer);
+
+/* The same, given as whole RTU frames or ASCII text. */
+void ask_raw(const char *request_hex, const char *answer_hex);
+void ask_text(const char *request, const char *answer);
+
+/* "01 A2" to octets. -> how many */
+unsigned hex_octets(const char *hex, uint8_t *octets);
+
+#endif
