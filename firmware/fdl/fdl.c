@@ -46,6 +46,8 @@ static struct {
     uint8_t fcs;
     const uint8_t XDATA *answer;
     uint8_t answer_len;
+    struct fdl_reply XDATA *reply; /* the answer stands in its room; 0 = elsewhere */
+    uint8_t turns;                 /* of reply, when the answer was built          */
 } XDATA last;
 
 /* ---- buffers --------------------------------------------------------------------------------------------------------- */
@@ -103,9 +105,10 @@ bool fdl_waiting_isr(void) IN_ISR
 
 void fdl_poll(void)
 {
+    const uint8_t in = box_in; /* what comes meanwhile waits for the next turn */
     uint8_t out;
 
-    while (box_out != box_in) {
+    while (box_out != in) {
         out = box_out;
         fdl_data_ind(&boxes[out].ind);
         fdl_give_back(boxes[out].buffer);
@@ -161,6 +164,28 @@ static void remember_isr(uint8_t len) IN_ISR
         last.header[i] = body[i];
 }
 
+/* Keep the answer just built for a retry. */
+static void keep_answer_isr(struct fdl_reply XDATA *reply) IN_ISR
+{
+    last.answer = fdl_tx.at;
+    last.answer_len = fdl_tx.len;
+    last.reply = reply;
+    if (reply)
+        last.turns = reply->turns;
+}
+
+/* The answer given before; where its room has been given up since (Freeze takes newer inputs), a newer one. */
+static void answer_again_isr(void) IN_ISR
+{
+    if (last.reply && last.reply->turns != last.turns) {
+        fdl_tx_reply_isr(last.reply);
+        keep_answer_isr(last.reply);
+    }
+    fdl_tx.at = last.answer;
+    fdl_tx.len = last.answer_len;
+    answer_isr();
+}
+
 /* True: a retry, answered again. Otherwise the FCB is stored: FCV = 0 with FCB = 1 starts the sequence, FCV = 1 goes on
  * with it; FCV = 0 with FCB = 0 is not numbered and starts a sequence of nobody's. */
 static bool repeated_isr(uint8_t len) IN_ISR
@@ -169,9 +194,7 @@ static bool repeated_isr(uint8_t len) IN_ISR
 
     if ((fc & FDL_FC_FCV) && same_as_last_isr(len)) {
         fdl_counters.retries++;
-        fdl_tx.at = last.answer;
-        fdl_tx.len = last.answer_len;
-        answer_isr();
+        answer_again_isr();
         return true;
     }
     remember_isr(len);
@@ -215,14 +238,15 @@ static void acknowledged_isr(uint8_t service, uint8_t len, bool whole) IN_ISR
         return;
     fdl_req.service = service;
     result = indicate_isr(fdl_sap_row_isr(fdl_req.dsap), whole);
+    if (result != FDL_OK || service != FDL_SRD)
+        fdl_req.reply = 0;
     if (result != FDL_OK)
         refuse_isr(result);
-    else if (service == FDL_SRD && fdl_req.reply)
+    else if (fdl_req.reply)
         fdl_tx_reply_isr(fdl_req.reply);
     else
         fdl_tx_short_isr();
-    last.answer = fdl_tx.at;
-    last.answer_len = fdl_tx.len;
+    keep_answer_isr(fdl_req.reply);
     answer_isr();
 }
 
@@ -235,10 +259,14 @@ static void status_isr(uint8_t function) IN_ISR
         reply = fdl_ident_reply_isr();
     else if (function == FDL_LSAP_STATUS)
         reply = fdl_lsap_reply_isr();
-    if (reply)
+    if (reply) {
         fdl_tx_reply_isr(reply);
-    else
-        fdl_tx_status_isr(function == FDL_LSAP_STATUS ? FDL_RS : FDL_OK);
+    } else if (function == FDL_STATUS) {
+        fdl_tx_status_isr(FDL_OK);
+    } else {
+        fdl_counters.refused++;
+        fdl_tx_status_isr(FDL_RS);
+    }
     answer_isr();
 }
 
@@ -307,7 +335,7 @@ static void own_request_isr(uint8_t len, bool whole) IN_ISR
 
     fdl_req.sa = body[SA] & 0x7Fu;
     fdl_req.sd3 = fdl_rx_buf[0] == FDL_SD3;
-    if ((body[FC] & FDL_FC_RESERVED) || (broadcast && !sdn) || !parse_saps_isr(len)) {
+    if ((body[FC] & FDL_FC_RESERVED) || fdl_req.sa == FDL_BROADCAST || (broadcast && !sdn) || !parse_saps_isr(len)) {
         fdl_counters.format++;
         return;
     }

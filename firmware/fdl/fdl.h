@@ -122,6 +122,7 @@ struct fdl_reply {
     uint8_t sent;
     uint8_t ready;
     uint8_t spare;
+    uint8_t turns; /* how often `sent` has become another room */
     bool valid;  /* there is something to answer with                             */
     bool fresh;  /* ready is newer than sent                                       */
     bool hold;   /* keep on answering with sent (DP: freeze)                       */
@@ -129,7 +130,8 @@ struct fdl_reply {
     bool single; /* Transmit = single: gone once sent                               */
 };
 
-/* Bind a reply to three rooms of FDL_ROOM(max) octets laid one after the other at rooms; empty. main. */
+/* Bind a reply to three rooms of FDL_ROOM(max) octets laid one after the other at rooms; empty. max 0..246; asked with
+ * both SAPs, no more than 244 can be sent: UE. main. */
 void fdl_reply_init(struct fdl_reply XDATA *reply, uint8_t XDATA *rooms, uint8_t max);
 
 /* Who deals with a request once FDL has checked station, service and length (the standard's Indication_mode, widened). */

@@ -104,6 +104,7 @@ void fdl_reply_init(struct fdl_reply XDATA *reply, uint8_t XDATA *rooms, uint8_t
     reply->sent = 0;
     reply->ready = 1;
     reply->spare = 2;
+    reply->turns = 0;
     reply->valid = false;
     reply->fresh = false;
     reply->hold = false;

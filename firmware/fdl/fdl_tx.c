@@ -55,28 +55,24 @@ void fdl_reply_release_isr(struct fdl_reply XDATA *reply) IN_ISR
     sent = reply->sent;
     reply->sent = reply->ready;
     reply->ready = sent;
+    reply->turns++;
     reply->fresh = false;
 }
 
 static uint8_t XDATA *head; /* first octet of the header so far  */
 static uint8_t head_sum;    /* of DA SA FC DAE SAE and the L_sdu */
 
-/* SAP octets, mirrored: the requester's SSAP is our DAE. -> how many. */
-static uint8_t put_saps_isr(void) IN_ISR
+/* SAP octets, mirrored: the requester's SSAP is our DAE. */
+static void put_saps_isr(void) IN_ISR
 {
-    uint8_t n = 0;
-
     if (fdl_req.dsap != FDL_SAP_NIL) {
         *--head = fdl_req.dsap;
         head_sum = (uint8_t)(head_sum + fdl_req.dsap);
-        n++;
     }
     if (fdl_req.ssap != FDL_SAP_NIL) {
         *--head = fdl_req.ssap;
         head_sum = (uint8_t)(head_sum + fdl_req.ssap);
-        n++;
     }
-    return n;
 }
 
 static void put_addresses_isr(uint8_t function) IN_ISR
@@ -124,12 +120,17 @@ void fdl_tx_reply_isr(struct fdl_reply XDATA *reply) IN_ISR
         tx_empty_isr(reply->high);
         return;
     }
+    le = (uint8_t)(len + (fdl_req.dsap != FDL_SAP_NIL) + (fdl_req.ssap != FDL_SAP_NIL));
+    if (le > FDL_LE_MAX - 3u) {
+        fdl_counters.refused++;
+        fdl_tx_fixed_isr(FDL_UE); /* our choice: asked with SAPs, they leave no room for so many data */
+        return;
+    }
 
     lsdu = reply->room[i] + FDL_ROOM_HEAD;
     head = lsdu;
     head_sum = reply->sum[i];
-    le = put_saps_isr();
-    le = (uint8_t)(le + len);
+    put_saps_isr();
     put_addresses_isr(reply->high ? FDL_DH : FDL_DL);
     if (fdl_req.sd3 && le == FDL_SD3_DU) {
         *--head = FDL_SD3;
