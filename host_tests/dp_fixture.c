@@ -59,6 +59,7 @@ void dp_begin(uint8_t station_switches, uint8_t station_baud)
 
 void dp_power_cycle(void)
 {
+    seg_station_off();
     hv_power_off();
     hv_run_for(100 * HV_MS);
     memset(dp_out, 0xEE, sizeof dp_out);

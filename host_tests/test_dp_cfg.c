@@ -15,13 +15,13 @@ void tearDown(void)
 
 #define CFG_FAULT 0x0605
 
-#define REFUSED(chk_cfg)                                                                                      \
-    do {                                                                                                      \
-        ASK(SET_PRM, ACK);                                                                                    \
-        STATE(DDLM_WAIT_CFG);                                                                                 \
-        ASK((chk_cfg), ACK);                                                                                  \
-        STATE(DDLM_WAIT_PRM);                                                                                 \
-        DIAG(CFG_FAULT);                                                                                      \
+#define REFUSED(chk_cfg)                                                                                     \
+    do {                                                                                                     \
+        ASK(SET_PRM, ACK);                                                                                   \
+        STATE(DDLM_WAIT_CFG);                                                                                \
+        ASK((chk_cfg), ACK);                                                                                 \
+        STATE(DDLM_WAIT_PRM);                                                                                \
+        DIAG(CFG_FAULT);                                                                                     \
     } while (0)
 
 static void T38_the_real_configuration_leads_to_DATA_EXCH(void)
@@ -81,15 +81,15 @@ static void read_all(const struct reading *r, unsigned n)
 static void T42_special_formats_are_read(void)
 {
     static const struct reading readings[] = {
-        {{0x00}, 1, true, 0, 0},                                     /* empty slot */
-        {{0x40, 0x03}, 2, true, 4, 0},                               /* one length octet: input, 4 bytes */
-        {{0x80, 0xC1}, 2, true, 0, 4},                               /* output, 2 words, whole */
-        {{0xC0, 0x01, 0x42}, 3, true, 6, 2},                         /* output first, then input */
-        {{0x41, 0x3F, 0x99}, 3, true, 64, 0},                        /* one manufacturer octet behind */
-        {{0xC2, 0x87, 0x8A, 1, 2}, 5, true, 11, 8},                  /* two */
-        {{0xF3, 0x7B}, 2, true, 32, 32},                             /* compact: 4 + 12 words both ways */
-        {{0x11, 0x22}, 2, true, 2, 3},                               /* 2 in, 3 out */
-        {{0x01, 0x77}, 2, true, 0, 0},                               /* no data, one manufacturer octet */
+        {{0x00}, 1, true, 0, 0},                    /* empty slot */
+        {{0x40, 0x03}, 2, true, 4, 0},              /* one length octet: input, 4 bytes */
+        {{0x80, 0xC1}, 2, true, 0, 4},              /* output, 2 words, whole */
+        {{0xC0, 0x01, 0x42}, 3, true, 6, 2},        /* output first, then input */
+        {{0x41, 0x3F, 0x99}, 3, true, 64, 0},       /* one manufacturer octet behind */
+        {{0xC2, 0x87, 0x8A, 1, 2}, 5, true, 11, 8}, /* two */
+        {{0xF3, 0x7B}, 2, true, 32, 32},            /* compact: 4 + 12 words both ways */
+        {{0x11, 0x22}, 2, true, 2, 3},              /* 2 in, 3 out */
+        {{0x01, 0x77}, 2, true, 0, 0},              /* no data, one manufacturer octet */
     };
     read_all(readings, sizeof readings / sizeof readings[0]);
 }
@@ -107,7 +107,9 @@ static void T43_manufacturer_length_15_means_none(void)
 static void T43_an_identifier_that_promises_more_octets_than_there_are_is_refused(void)
 {
     static const struct reading readings[] = {
-        {{0x40}, 1, false, 0, 0}, {{0xC0, 0x01}, 2, false, 0, 0}, {{0x0E, 1, 2, 3}, 4, false, 0, 0},
+        {{0x40}, 1, false, 0, 0},
+        {{0xC0, 0x01}, 2, false, 0, 0},
+        {{0x0E, 1, 2, 3}, 4, false, 0, 0},
     };
     read_all(readings, sizeof readings / sizeof readings[0]);
     REFUSED("68 06 06 68 88 82 6D 3E 3E 40 33 16");

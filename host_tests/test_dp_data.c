@@ -10,8 +10,8 @@ void tearDown(void)
 {
 }
 
-#define RS_ "10 02 08 03 0D 16"
-#define RR_ "10 02 08 02 0C 16"
+#define RS_      "10 02 08 03 0D 16"
+#define RR_      "10 02 08 02 0C 16"
 #define DX_33_44 "68 05 05 68 08 02 6D 33 44 EE 16"
 #define DX_55_66 "68 05 05 68 08 02 6D 55 66 32 16"
 
@@ -46,7 +46,8 @@ static void T47_outputs_are_live_without_any_Global_Control(void)
 
 static void T48_one_output_octet_less_or_more_is_refused_and_leaves_data_exchange(void)
 {
-    static const char *const wrong[] = {"68 04 04 68 08 02 6D 11 88 16", "68 06 06 68 08 02 6D 11 22 33 DD 16"};
+    static const char *const wrong[] = {"68 04 04 68 08 02 6D 11 88 16",
+                                        "68 06 06 68 08 02 6D 11 22 33 DD 16"};
     for (unsigned i = 0; i < 2; i++) {
         TO_DATA_EXCH(SET_PRM);
         ASK(DX, DX_OK);

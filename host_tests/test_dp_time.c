@@ -12,8 +12,8 @@ void tearDown(void)
 {
 }
 
-#define T_WD  (50u * HV_MS) /* SET_PRM_WD: 10 ms x 1 x 5 */
-#define TURN  (HV_MS + HV_MS / 5) /* hal_ticks() is at most 1 ms late, a turn of the main loop takes 100 us */
+#define T_WD (50u * HV_MS)       /* SET_PRM_WD: 10 ms x 1 x 5 */
+#define TURN (HV_MS + HV_MS / 5) /* hal_ticks() is at most 1 ms late, a turn of the main loop takes 100 us */
 
 /* When the last octet of the request that seg_said answers ended. */
 static hv_time request_end(void)
@@ -111,7 +111,8 @@ static void T79_a_main_loop_that_comes_late_neither_misses_nor_invents_an_expiry
 
 /* ---- baud search --------------------------------------------------------------------------------------------- */
 
-static const uint32_t rates[] = {9600, 19200, 45450, 93750, 187500, 500000, 1500000, 3000000, 6000000, 12000000};
+static const uint32_t rates[] = {9600,   19200,   45450,   93750,   187500,
+                                 500000, 1500000, 3000000, 6000000, 12000000};
 #define RATES (sizeof rates / sizeof rates[0])
 
 /* A master polls station 5, which does not exist, every 10 ms. */
@@ -229,8 +230,9 @@ static void T83_under_the_watchdog_the_rate_stays_until_it_expires(void)
 /* In virtual time the port is ideal; what an 8051 adds is measured on its simulator. */
 static void T84_answers_start_exactly_min_T_SDR_after_the_request_at_every_rate(void)
 {
-    static const uint8_t codes[] = {PHY_BAUD_9K6,  PHY_BAUD_19K2, PHY_BAUD_45K45, PHY_BAUD_93K75, PHY_BAUD_187K5,
-                                    PHY_BAUD_500K, PHY_BAUD_1M5,  PHY_BAUD_3M,    PHY_BAUD_6M,    PHY_BAUD_12M};
+    static const uint8_t codes[] = {PHY_BAUD_9K6,   PHY_BAUD_19K2, PHY_BAUD_45K45, PHY_BAUD_93K75,
+                                    PHY_BAUD_187K5, PHY_BAUD_500K, PHY_BAUD_1M5,   PHY_BAUD_3M,
+                                    PHY_BAUD_6M,    PHY_BAUD_12M};
     for (unsigned i = 0; i < RATES; i++) {
         dp_begin_at(8, codes[i], rates[i]);
         ASK(GET_DIAG, "68 0B 0B 68 82 88 08 3E 3C 02 05 00 FF 12 34 D8 16");

@@ -31,6 +31,14 @@ static bool struck(void)
 
 /* ---- requests ----------------------------------------------------------------------------------------- */
 
+/* The line is the master's until t; what it hears before is not an answer. */
+static void busy_until(struct bus_master *b, hv_time t)
+{
+    if (t > b->deaf_until)
+        b->deaf_until = t;
+    ini_sends_until(&b->dp.ini, b->deaf_until);
+}
+
 static void send_chars(struct bus_master *b, hv_time t, const struct flt_char *chars, unsigned n)
 {
     for (unsigned i = 0; i < n; i++) {
@@ -38,49 +46,57 @@ static void send_chars(struct bus_master *b, hv_time t, const struct flt_char *c
         seg_send(&b->cable, t, &chars[i].octet, 1, &chars[i].err);
         t += 11 * b->party.bit;
     }
-    if (t > b->deaf_until)
-        b->deaf_until = t;
+    busy_until(b, t);
 }
 
-static void send_good(struct bus_master *b, hv_time t, const uint8_t *octets, unsigned n)
+static void send_good(struct bus_master *b, struct seg_party *from, hv_time t, const uint8_t *octets,
+                      unsigned n)
 {
-    seg_send(&b->party, t, octets, n, 0);
-    b->deaf_until = t + n * 11 * b->party.bit;
+    seg_send(from, t, octets, n, 0);
+    busy_until(b, t + n * 11 * b->party.bit);
+}
+
+/* Somebody else before the request or with it. -> when the request itself starts. */
+static hv_time send_stranger(struct bus_master *b, hv_time t)
+{
+    uint8_t octets[TG_MAX];
+    const unsigned n = flt_stranger(fault.kind, &fault.random, octets);
+    if (n == 0)
+        return t;
+    b->stranger.bit = b->party.bit * (fault.kind == FLT_OTHER_RATE ? 2 : 1);
+    seg_send(&b->stranger, t, octets, n, 0);
+    busy_until(b, t + n * 11 * b->stranger.bit);
+    return fault.kind == FLT_COLLISION ? t : b->deaf_until + 40 * b->party.bit;
+}
+
+static void send_faulty(struct bus_master *b, const uint8_t *octets, unsigned n)
+{
+    struct flt_char chars[FLT_CHARS];
+    const hv_time t = send_stranger(b, hv_now());
+    const int len = flt_request(fault.kind, &fault.random, octets, n, chars);
+    if (len >= 0)
+        send_chars(b, t, chars, (unsigned)len);
+    else
+        send_good(b, fault.kind == FLT_COLLISION ? &b->cable : &b->party, t, octets, n);
 }
 
 static void on_send(void *of, const uint8_t *octets, unsigned n)
 {
     struct bus_master *const b = of;
-    struct flt_char chars[FLT_CHARS];
-    uint8_t other[TG_MAX];
-    hv_time t = hv_now();
     b->answer_fault = FLT_NONE;
     b->answer_i = 0;
-    if (!struck()) {
-        send_good(b, t, octets, n);
+    if (b->cut)
+        return;
+    const bool hit = struck();
+    if (hit && !flt_hits_answer(fault.kind)) {
+        send_faulty(b, octets, n);
         return;
     }
-    if (flt_hits_answer(fault.kind)) {
+    if (hit) {
         b->answer_fault = fault.kind;
         b->answer_hit = sim_below(&fault.random, 6);
-        send_good(b, t, octets, n);
-        return;
     }
-    const unsigned strange = flt_stranger(fault.kind, &fault.random, other);
-    if (strange) {
-        b->stranger.bit = b->party.bit * (fault.kind == FLT_OTHER_RATE ? 2 : 1);
-        seg_send(&b->stranger, t, other, strange, 0);
-        if (fault.kind != FLT_COLLISION)
-            t += strange * 11 * b->stranger.bit + 40 * b->party.bit;
-    }
-    const int len = flt_request(fault.kind, &fault.random, octets, n, chars);
-    if (len >= 0)
-        send_chars(b, t, chars, (unsigned)len);
-    else if (fault.kind == FLT_COLLISION)
-        for (unsigned i = 0; i < n; i++)
-            seg_send(&b->cable, t + i * 11 * b->party.bit, &octets[i], 1, 0);
-    else
-        send_good(b, t, octets, n);
+    send_good(b, &b->party, hv_now(), octets, n);
 }
 
 /* ---- polling ------------------------------------------------------------------------------------------ */
@@ -116,7 +132,7 @@ static void poll(void *of, uint32_t unused)
 static void on_octet(struct seg_party *party, uint8_t octet, uint8_t err)
 {
     struct bus_master *const b = party->of;
-    if (hv_now() <= b->deaf_until)
+    if (b->cut || hv_now() <= b->deaf_until)
         return;
     /* Even a master that cannot read the answer waits until the line is idle: collision is a fault of its own. */
     if (flt_answer(b->answer_fault, b->answer_hit, b->answer_i++, &octet, &err))

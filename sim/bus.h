@@ -8,6 +8,7 @@
 
 struct bus_master {
     struct dp_master dp; /* fill address, slaves and hooks; bus_attach() does the rest */
+    bool cut;            /* its cable is cut: nothing goes out, nothing comes in */
     /* own */
     struct seg_party party, cable, stranger;
     hv_time next;       /* the poll that is scheduled */

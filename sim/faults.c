@@ -65,7 +65,7 @@ int flt_request(enum flt kind, uint64_t *random, const uint8_t *octets, unsigned
     case FLT_NOISE_BEFORE:
         return (int)insert(out, n, 0, (struct flt_char){0, (uint8_t)sim_random(random), 0});
     case FLT_NOISE_AFTER:
-        n = insert(out, n, n, (struct flt_char){3, 0xFF, FRAMING});
+        n = insert(out, n, n, (struct flt_char){0, 0xFF, FRAMING});
         return (int)insert(out, n, n, (struct flt_char){0, 0xFE, 0});
     case FLT_LOST_REQUEST:
         return 0;

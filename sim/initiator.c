@@ -57,6 +57,12 @@ void ini_activity(struct ini *i, uint64_t now)
         i->due = now + 33 * i->bit;
 }
 
+void ini_sends_until(struct ini *i, uint64_t end)
+{
+    if (end > i->sent_end)
+        i->sent_end = i->quiet = i->due = end;
+}
+
 void ini_hear(struct ini *i, uint64_t now, uint8_t octet, uint8_t err)
 {
     ini_activity(i, now);

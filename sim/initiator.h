@@ -54,6 +54,9 @@ void ini_hear(struct ini *i, uint64_t now, uint8_t octet, uint8_t err);
 /* The line is not idle, though nothing can be read. */
 void ini_activity(struct ini *i, uint64_t now);
 
+/* The request takes until then to leave, longer than its octets say. For the send function. */
+void ini_sends_until(struct ini *i, uint64_t end);
+
 /* When ini_poll() has something to do: call it then. After INI_DONE and INI_LOST the initiator is idle. */
 uint64_t ini_due(const struct ini *i);
 enum ini_event ini_poll(struct ini *i, uint64_t now);

@@ -12,9 +12,9 @@ static struct {
     struct seg_party *parties;
     struct seg_party station;
     hv_time quiet_since;
-    bool ever;      /* something has been on the line */
-    struct tg last; /* the last good telegram; asked != 0 while it waits for its answer */
-    bool asked;
+    bool ever;          /* something has been on the line */
+    bool asked;         /* the last telegram was a good request that wants an answer */
+    bool asked_station; /* ... from the station */
     bool driver;
     unsigned count[SEG_RULES];
     struct seg_violation kept[KEPT];
@@ -64,7 +64,7 @@ static void judge_first_octet(struct seg_party *p)
         return;
     seg_said.start = now;
     seg_said.t_sdr = p->idle_before;
-    if (!seg.asked || seg.last.da != seg.address)
+    if (!seg.asked_station)
         violation(SEG_UNASKED, p, p->idle_before);
     else
         judge_answer_time(p);
@@ -79,8 +79,8 @@ static void judge_telegram(struct seg_party *p, const struct tg *t)
         judge_answer_time(p);
     if (!answer && p == &seg.station)
         violation(SEG_UNASKED, p, p->idle_before);
-    seg.last = *t;
     seg.asked = tg_wants_answer(t);
+    seg.asked_station = seg.asked && t->da == seg.address;
 }
 
 static void frame_done(struct seg_party *p)
@@ -107,7 +107,7 @@ static void judge_octet(struct seg_party *p, uint8_t octet, uint8_t err)
         judge_telegram(p, &t);
     } else {
         violation(SEG_MALFORMED, p, 0);
-        seg.asked = false;
+        seg.asked = seg.asked_station = false;
     }
     frame_done(p);
 }
@@ -145,7 +145,7 @@ static void hear(void *party, uint32_t wave)
     struct seg_party *const p = party;
     struct uart_octet o;
     if (wave != p->waves)
-        return; /* the talker changed its rate meanwhile */
+        return;                  /* the talker changed its rate meanwhile */
     if (p->rx_bit != hv_bit()) { /* re-opened meanwhile: listens from here */
         p->resume = hv_now() - p->wave_start;
     } else if (uart_next(&p->wave, p->resume, p->rx_bit, &o)) {
@@ -252,6 +252,9 @@ static void char_start(struct seg_party *p, uint8_t octet, uint8_t err, hv_time 
 static void party_char(void *party, uint32_t value)
 {
     struct seg_party *const p = party;
+    finish(p);
+    if (p->pending)
+        hv_on_failure("segment: a party talks over itself");
     char_start(p, (uint8_t)value, (uint8_t)(value >> 8), hv_now() + 11 * p->bit);
 }
 
@@ -296,7 +299,7 @@ void seg_send_levels(struct seg_party *from, const uint8_t *level, unsigned n)
 {
     add_levels(from, level, n);
     seg.quiet_since = hv_now() + n * from->bit;
-    seg.asked = false;
+    seg.asked = seg.asked_station = false;
 }
 
 void seg_attach(struct seg_party *party)
@@ -307,6 +310,14 @@ void seg_attach(struct seg_party *party)
     party->n = 0;
     party->pending = party->spoilt = party->hearing = false;
     seg.parties = party;
+}
+
+void seg_station_off(void)
+{
+    seg.station.pending = false;
+    seg.station.n = 0;
+    seg.station.char_end = hv_now();
+    seg.driver = false;
 }
 
 void seg_set_rate(uint32_t bit_per_s)

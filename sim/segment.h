@@ -68,6 +68,9 @@ unsigned seg_max_t_sdr(void);
 
 void seg_attach(struct seg_party *party);
 
+/* Power fails at the station: a telegram cut short now is not its fault. */
+void seg_station_off(void);
+
 /* How the station reaches the segment; seg_begin() connects it. */
 extern const struct hv_wire seg_wire;
 
