@@ -152,6 +152,63 @@ def test_inputs_set_at_the_station_arrive_at_the_master():
             expect("inputs", inputs, bytes((value, 255 - value)))
 
 
+def test_sync_holds_outputs_until_the_next_sync_and_unsync_lets_them_through():
+    with Station("fieldling-dp", "--address", str(ADDRESS)) as station, Master(station.pty) as master:
+        master.exchange(number(1))
+        executed(station, 1)
+        master.dp.syncMode(groupMask=1)
+        station.wait(lambda: station.ask("status")["sync"] == "1", "Sync")
+        master.exchange(number(2))
+        master.exchange(number(3))
+        expect("outputs while held", station.ask("out")["out"], "0001")
+        master.dp.syncMode(groupMask=1)
+        station.wait(lambda: station.ask("out")["out"] == "0003", "the output of the second Sync")
+        master.exchange(number(4))
+        master.dp.syncModeCancel(groupMask=2)  # another group's
+        master.exchange(number(5))
+        expect("outputs while held", station.ask("out")["out"], "0003")
+        master.dp.syncModeCancel(groupMask=1)
+        station.wait(lambda: station.ask("out")["out"] == "0005", "the output of Unsync")
+        master.exchange(number(6))
+        station.wait(lambda: station.ask("out")["out"] == "0006", "the next output")
+
+
+def test_freeze_holds_inputs_until_the_next_freeze_and_unfreeze_lets_them_through():
+    def inputs_become(value):
+        for _ in range(50):
+            if master.exchange(b"\x00\x00")[0] == value:
+                return True
+        return False
+
+    with Station("fieldling-dp", "--address", str(ADDRESS)) as station, Master(station.pty) as master:
+        station.ask("in 1 1")
+        expect("input 1 arrives", inputs_become(1), True)
+        master.dp.freezeMode(groupMask=0)
+        station.wait(lambda: station.ask("status")["freeze"] == "1", "Freeze")
+        station.ask("in 1 2")
+        expect("input 2 arrives while frozen", inputs_become(2), False)
+        master.dp.freezeMode(groupMask=0)
+        expect("input 2 arrives with the second Freeze", inputs_become(2), True)
+        station.ask("in 1 3")
+        expect("input 3 arrives while frozen", inputs_become(3), False)
+        master.dp.freezeModeCancel(groupMask=0)
+        expect("input 3 arrives with Unfreeze", inputs_become(3), True)
+
+
+def test_diagnosis_is_fetched_and_data_go_on():
+    with Station("fieldling-dp", "--address", str(ADDRESS)) as station, Master(station.pty) as master:
+        n = 1
+        master.exchange(number(n))
+        for blocks in ("0201", "8841214400010088", "clear"):  # a device related block; garbage; gone
+            station.ask(f"diag {blocks}")
+            for _ in range(20):
+                n += 1
+                master.exchange(number(n))
+        status = executed(station, n)
+        expect("state", status["state"], "DATA_EXCH")
+        expect("diagnosis read", int(status["requests"]) - n >= 4 + 2, True)  # bring-up, and twice more
+
+
 def test_station_outlives_its_master_and_takes_the_next():
     with Station("fieldling-dp", "--address", str(ADDRESS)) as station:
         for n in (1, 2, 3):
@@ -171,5 +228,8 @@ if __name__ == "__main__":
         test_exchanges_at_full_speed_are_all_executed,
         test_lost_requests_and_answers_neither_lose_nor_double_data,
         test_inputs_set_at_the_station_arrive_at_the_master,
+        test_sync_holds_outputs_until_the_next_sync_and_unsync_lets_them_through,
+        test_freeze_holds_inputs_until_the_next_freeze_and_unfreeze_lets_them_through,
+        test_diagnosis_is_fetched_and_data_go_on,
         test_station_outlives_its_master_and_takes_the_next,
     ]))
