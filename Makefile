@@ -94,7 +94,7 @@ $(call remember,build/$1/obj/$2.parts,$3 : $($2_DEFAULTS) : $($2_LDLIBS))
 build/$1/$2: $(call objects,$1,$2,$3) $(if $($2_DEFAULTS),build/$1/obj/$2.a) build/$1/obj/$2.parts
 	$$(call say,LD,$$@)$($1_CC) $($1_LDFLAGS) $$(filter %.o %.a,$$^) $($2_LDLIBS) -o $$@
 build/$1/obj/$2.a: $(call objects,$1,$2,$($2_DEFAULTS)) build/$1/obj/$2.parts
-	$$(call say,AR,$$@)rm -f $$@ && ar rcs $$@ $$(filter %.o,$$^)
+	$$(call say,AR,$$@)rm -f $$@.new && ar rcs $$@.new $$(filter %.o,$$^) && mv $$@.new $$@
 -include $(patsubst %.o,%.d,$(call objects,$1,$2,$3 $($2_DEFAULTS)))
 endef
 
