@@ -11,3 +11,7 @@ bench-pty_SRC = host_tests/bench_pty.c
 BENCHES += bench-posix
 bench-posix: build/posix/bench-pty build/posix/fieldling-dp
 	@build/posix/bench-pty build/posix/fieldling-dp
+
+UNIT_TESTS += test_hal_tty
+test_hal_tty_SRC    = $(HAL_REALTIME)
+test_hal_tty_LDLIBS = -Wl,--wrap=ioctl
