@@ -14,3 +14,12 @@ gsd: build/posix/fieldling-gsd
 	@name=$$($< --name) && $< >gsd/$$name && python3 gsd/check gsd/$$name
 
 SCRIPT_TESTS_ONCE += host_tests/gsd_check.py
+
+# ---- analyzer ---------------------------------------------------------------------------------------------------
+
+MON = $(addprefix sim/,mon_split.c mon_record.c mon_pair.c mon_view.c mon_details.c mon_other.c mon_stats.c mon_plot.c \
+                       mon_pcapng.c) sim/telegram.c
+
+PROGRAMS += fieldling-mon
+fieldling-mon_SRC    = sim/fieldling_mon.c sim/port.c $(MON)
+fieldling-mon_LDLIBS = -lm
