@@ -1,7 +1,7 @@
 # Unit tests of the DP stack, module by module, on a machine without time (fake_hal.c).
 
 DP_UNIT_TESTS := test_bytes test_phy_uart test_fdl_rx test_fdl_tx test_fdl_services test_fdl_retry test_fdl_sap \
-    test_fdl_small
+    test_fdl_small test_fma
 UNIT_TESTS += $(DP_UNIT_TESTS)
 
 UNIT_PHY := host_tests/fake_hal.c firmware/phy_uart/phy_uart.c

@@ -12,7 +12,7 @@
 
 /* Time_out: T_TO = 6 T_SL + 2 n T_SL with n = 130 for a slave (EN 50170-2 part 4, 4.1.7); our choice: never less than
  * 100 ms, so that the event means "no master" and not "the master's computer was busy". */
-#define T_TO_SLOTS_MS (uint32_t)266000 /* 266 slots, in ms at 1 bit/s; long: SDCC folds in 16 bits */
+#define T_TO_SLOTS_MS (uint32_t)133000 /* 266 slots, in ms at 2 bit/s; long: SDCC folds in 16 bits */
 #define T_TO_MIN_MS   100u
 
 static uint16_t t_sl;
@@ -24,8 +24,8 @@ static bool timed_out;
 
 static void set_t_to(void)
 {
-    uint32_t bit_per_s = phy_bit_per_s(phy_read_value(PHY_BAUD_RATE));
-    uint32_t ms = bit_per_s ? T_TO_SLOTS_MS * t_sl / bit_per_s : 0;
+    uint32_t half_rate = phy_bit_per_s(phy_read_value(PHY_BAUD_RATE)) / 2u; /* so that the product has 32 bits */
+    uint32_t ms = half_rate ? T_TO_SLOTS_MS * t_sl / half_rate : 0;
 
     t_to_ms = ms < T_TO_MIN_MS ? T_TO_MIN_MS : ms > 60000u ? 60000u : (uint16_t)ms;
 }
@@ -96,7 +96,8 @@ static uint8_t set_min_t_sdr(uint16_t value)
     return FMA_OK;
 }
 
-static uint8_t clear_count(uint16_t XDATA *count, uint16_t value)
+/* seen: what fma_poll() compares the count with. */
+static uint8_t clear_count(uint16_t XDATA *count, uint16_t *seen, uint16_t value)
 {
     uint8_t irq;
 
@@ -105,6 +106,7 @@ static uint8_t clear_count(uint16_t XDATA *count, uint16_t value)
     irq = hal_irq_save();
     *count = 0;
     hal_irq_restore(irq);
+    *seen = 0;
     return FMA_OK;
 }
 
@@ -123,9 +125,9 @@ uint8_t fma_set_value(uint8_t variable, uint16_t value)
     case FMA_MIN_T_SDR:
         return set_min_t_sdr(value);
     case FMA_SD_COUNT:
-        return clear_count(&fdl_counters.sd_count, value);
+        return clear_count(&fdl_counters.sd_count, &seen_sd, value);
     case FMA_SD_ERROR_COUNT:
-        return clear_count(&fdl_counters.sd_error_count, value);
+        return clear_count(&fdl_counters.sd_error_count, &seen_errors, value);
     default:
         return FMA_IV;
     }
@@ -218,7 +220,8 @@ static struct fdl_sap XDATA new_row;
 
 static uint8_t activate(uint8_t sap)
 {
-    if (sap >= FDL_SAP_NUMBERS || sap == FDL_SAP_MAX + 1u || new_row.access > FDL_ALL)
+    if (sap >= FDL_SAP_NUMBERS || sap == FDL_SAP_MAX + 1u || new_row.access > FDL_ALL ||
+        new_row.handling > FDL_TO_MAIN)
         return FMA_IV;
     return fdl_sap_set(sap, &new_row) ? FMA_OK : FMA_LR;
 }
