@@ -7,23 +7,32 @@
 #include <string.h>
 #include <time.h>
 
-#define NOTES    32u /* telegrams in one turn of the main loop; more are counted          */
-#define STALE_MS 20  /* our choice: a telegram without an end is shown when nothing came for so long */
+#define NOTES    32u    /* telegrams in one turn of the main loop; more are counted */
+#define STALE_US 20000u /* our choice: a telegram without an end is shown then      */
 
 struct note {
     bool sent, good;
-    struct timespec t;
+    uint64_t us;
     uint16_t n;
     uint8_t octets[TG_MAX + 1u];
 };
 
 static struct note notes[NOTES];
 static unsigned notes_n, lost;
+static uint64_t start_us; /* of the trace */
 
 /* A telegram being received, which may come in several runs. bad: octets that are none, until the run is
  * over. */
 static struct note now;
 static bool bad;
+
+static uint64_t now_us(void)
+{
+    struct timespec t;
+
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (uint64_t)t.tv_sec * 1000000u + (uint64_t)t.tv_nsec / 1000u;
+}
 
 static void put_away(bool good)
 {
@@ -45,7 +54,7 @@ static void octet(uint8_t value, uint8_t err)
     if (now.n == sizeof now.octets)
         put_away(false);
     if (now.n == 0)
-        clock_gettime(CLOCK_MONOTONIC, &now.t);
+        now.us = now_us();
     now.octets[now.n++] = value;
     v = bad || err ? TG_BAD : tg_decode(now.octets, now.n, &t);
     bad = v == TG_BAD;
@@ -67,6 +76,7 @@ static void tap(const uint8_t *octets, const uint8_t *err, uint16_t n)
 void dp_trace_set(bool on)
 {
     hal_host_tap = on ? tap : NULL;
+    start_us = now_us();
     notes_n = lost = now.n = 0;
     bad = false;
 }
@@ -75,8 +85,8 @@ static void say(const struct note *n, uint8_t state)
 {
     static char text[2u * sizeof n->octets + 256u];
     struct tg t;
-    int at = snprintf(text, sizeof text, "trace=%s t=%lld.%06ld phy=", n->sent ? "tx" : "rx",
-                      (long long)n->t.tv_sec, n->t.tv_nsec / 1000);
+    int at = snprintf(text, sizeof text, "trace=%s t=%.6f phy=", n->sent ? "tx" : "rx",
+                      (double)(n->us - start_us) * 1e-6);
 
     for (uint16_t i = 0; i < n->n; i++)
         at += snprintf(text + at, sizeof text - (size_t)at, "%02X", n->octets[i]);
@@ -92,19 +102,11 @@ static void say(const struct note *n, uint8_t state)
     console_line(text);
 }
 
-static bool is_stale(void)
-{
-    struct timespec t;
-
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (t.tv_sec - now.t.tv_sec) * 1000 + (t.tv_nsec - now.t.tv_nsec) / 1000000 >= STALE_MS;
-}
-
 void dp_trace_poll(uint8_t state)
 {
     char text[40];
 
-    if (now.n != 0 && is_stale())
+    if (now.n != 0 && now_us() - now.us >= STALE_US)
         put_away(false);
 
     for (unsigned i = 0; i < notes_n; i++)

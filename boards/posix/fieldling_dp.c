@@ -44,6 +44,7 @@ void board_output(uint8_t module, uint8_t value)
 
 static struct hal_host host = {.switches = FDL_UNADDRESSED};
 static uint8_t baud = DDLM_BAUD_AUTO;
+static const char *baud_asked;
 
 static const char *take_line(const char *value)
 {
@@ -65,6 +66,7 @@ static const char *take_baud(const char *value)
 {
     uint32_t rate;
 
+    baud_asked = value;
     if (option_number(value, 1, UINT32_MAX, &rate))
         for (baud = 0; baud < PHY_BAUDS; baud++)
             if (phy_bit_per_s(baud) == rate)
@@ -282,8 +284,8 @@ static void start(void)
         options_unusable(wrong);
     hal_init();
     if (dp_test01_init(hal_switches(), baud) != DDLM_OK) {
-        snprintf(text, sizeof text, "%s: the driver refuses %lu bit/s 8E1", host.line,
-                 (unsigned long)(baud == DDLM_BAUD_AUTO ? 0 : phy_bit_per_s(baud)));
+        snprintf(text, sizeof text, "%s: the driver refuses 8E1 at %s bit/s", host.line,
+                 baud_asked ? baud_asked : "any PROFIBUS rate in");
         options_unusable(text);
     }
     console_init(commands);
