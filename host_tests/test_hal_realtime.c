@@ -266,6 +266,20 @@ static void octets_of_one_run_have_no_silence_between_them(void)
     close(m);
 }
 
+/* phy_uart hears nothing before T_SYN of silence: the first request of a master that is quick is not lost by that. */
+static void a_pty_has_been_silent_before_it_was_opened(void)
+{
+    int m = master_open();
+
+    run_ms(1);
+    TEST_ASSERT_EQUAL(HAL_LINE_UNTIMED, hal_line_open(500000u, HAL_8E1));
+    hal_silence(hal_tbit(60000));
+    master_says(m, "x");
+    run_until(2);
+    TEST_ASSERT_EQUAL_STRING("so", upcalls);
+    close(m);
+}
+
 static void no_limit_no_call(void)
 {
     int m = master_open();
@@ -544,6 +558,7 @@ int main(void)
     RUN_TEST(silence_that_has_been_long_enough_is_called_at_once_but_not_inside);
     RUN_TEST(an_octet_that_has_arrived_cancels_silence_that_has_run_out);
     RUN_TEST(octets_of_one_run_have_no_silence_between_them);
+    RUN_TEST(a_pty_has_been_silent_before_it_was_opened);
     RUN_TEST(no_limit_no_call);
     RUN_TEST(an_answer_after_silence_reaches_the_master);
     RUN_TEST(what_is_sent_to_nobody_is_lost_and_reported_as_sent);

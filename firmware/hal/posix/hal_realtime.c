@@ -169,6 +169,8 @@ void hal_wdog_kick(void)
 
 /* ---- the line ----------------------------------------------------------------------------------- */
 
+/* our choice: a pty counts as silent before it is opened, too. What was said before is not there any more, and the
+ * first request of a master need not be lost. */
 uint8_t hal_line_open(uint32_t bit_per_s, uint8_t format)
 {
     static const uint8_t bits[HAL_FORMATS] = {11, 11, 11, 10, 10, 10, 10};
@@ -184,7 +186,8 @@ uint8_t hal_line_open(uint32_t bit_per_s, uint8_t format)
     tx.state = TX_OFF;
     silence.limit_ns = 0;
     silence.armed = false;
-    silence.end_ns = now_ns();
+    silence.empty_ns = now_ns();
+    silence.end_ns = hal.line.bit_time ? silence.empty_ns : 0;
     return HAL_LINE_UNTIMED;
 }
 
