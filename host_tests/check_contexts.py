@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Prove from SDCC's assembly that interrupts and the main loop do not meet in a function's static locals.
 
-usage: check_contexts.py [--sources DIR ...] FILE.asm ...
+usage: check_contexts.py [--sources DIR] ... FILE.asm ...
 
 On the 8051 the locals of a function are static memory. A function that the main loop is in while an interrupt
 calls it is corrupted, and no tool says so. The names carry the context (house rule: interrupt code ends in
@@ -13,7 +13,9 @@ _isr), so the rules can be checked call by call, on what the compiler made of th
   3  other code calls interrupt code only while interrupts are masked: on every path through the function there
      are more hal_irq_save() than hal_irq_restore() calls before it; a function returns with as many as it took;
   4  a function called through a pointer is interrupt code if and only if its caller is;
-  5  no variable of interrupt code is overlaid with another function's (area OSEG).
+  5  no variable of interrupt code is overlaid with another function's (area OSEG);
+  6  where the files are a whole image, every interrupt function has its vector: SDCC leaves it out, without a word,
+     when the function's prototype is not visible in the file that holds main().
 
 By 1, 3 and 4 the functions reachable from interrupts and those reachable from unmasked main code are disjoint.
 """
@@ -55,7 +57,7 @@ def parse(path):
             if name.endswith("$"):
                 if current:
                     current.labels[name] = len(current.code)
-            elif area in ("CSEG", "HOME") and name.startswith("_"):
+            elif area in ("CSEG", "HOME") and name.startswith("_") and name != "__interrupt_vect":
                 current = Function(name[1:])
                 functions.append(current)
             else:
@@ -188,6 +190,20 @@ def reentrant_functions(folders):
     return found
 
 
+def vectorless(folders, paths):
+    """Interrupt functions of these files that the vector table of one of them does not name (rule 6)."""
+    texts = [Path(path).read_text(errors="replace") for path in paths]
+    tables = [text for text in texts if "__interrupt_vect:" in text]
+    if not tables:
+        return
+    vectors = set(re.findall(r"\bljmp\s+_(\w+)", tables[0].split("__interrupt_vect:")[1].split(".area")[0]))
+    for folder in folders:
+        for source in Path(folder).rglob("*.c"):
+            for name in re.findall(r"\b(\w+)\s*\([^;{}()]*\)\s*__interrupt\s*\(\d+\)[^;{}]*\{", source.read_text()):
+                if name not in vectors and any(re.search(rf"^_{name}:", text, re.M) for text in texts):
+                    yield f"{source}: {name}: has no vector; show its prototype to the file that holds main()"
+
+
 def main(arguments):
     folders = []
     while arguments and arguments[0] == "--sources":
@@ -199,6 +215,7 @@ def main(arguments):
         found, functions = check(path, reentrant)
         problems += found
         count += functions
+    problems += vectorless(folders, arguments)
     print("\n".join(problems) if problems else f"contexts: {count} functions in {len(arguments)} files keep apart")
     if not arguments or not count:
         print("contexts: nothing to check")

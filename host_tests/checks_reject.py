@@ -29,10 +29,13 @@ def findings(sample, folder):
         sdcc = shlex.split(os.environ["FIELDLING_SDCC"])
         if sample.name == "overlay.c":
             sdcc.remove("--nooverlay")
-        checks.append(run(*sdcc, "-c", str(sample), "-o", f"{folder}/sample.rel"))
-        if not checks[-1][0]:
+        # the rest of an image, for rules that need to see all of it
+        (Path(folder) / "rest.c").write_text("void main(void)\n{\n    for (;;)\n        ;\n}\n")
+        for source, name in ((str(sample), "sample"), (f"{folder}/rest.c", "rest")):
+            checks.append(run(*sdcc, "-c", source, "-o", f"{folder}/{name}.rel"))
+        if not checks[-1][0] and not checks[-2][0]:
             checks.append(run(sys.executable, str(HERE / "check_contexts.py"), "--sources", str(HERE / "bad_samples"),
-                              f"{folder}/sample.asm"))
+                              f"{folder}/sample.asm", f"{folder}/rest.asm"))
     return "".join(output for failed, output in checks if failed)
 
 

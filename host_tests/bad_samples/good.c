@@ -1,7 +1,7 @@
 /* expect-nothing: keeps all rules, in the shapes that are hard to follow in assembly */
 #include "hal/hal.h"
 
-typedef uint8_t (*handler)(uint8_t octet);
+typedef uint8_t (*handler)(uint8_t octet) IN_ISR;
 
 void octet_isr(uint8_t octet) IN_ISR;
 uint8_t smaller(uint8_t a, uint8_t b) REENTRANT;
