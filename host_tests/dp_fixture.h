@@ -76,4 +76,7 @@ unsigned dp_count(unsigned quick, unsigned full);
 
 extern struct seg_party dp_tester;
 
+/* dp_station_any.c only: take every configuration. */
+extern bool dp_adapts;
+
 #endif

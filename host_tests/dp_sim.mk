@@ -10,10 +10,19 @@ test_segment_SRC = $(SIM_SEGMENT)
 DP_TEST01_BENCH = $(DP_SRC) boards/common/dp_test01_app.c $(SIM_BUS) \
                   host_tests/dp_fixture.c host_tests/dp_station_test01.c
 
-DP_TESTS = test_dp_frames test_dp_fcb test_dp_prm test_dp_cfg test_dp_data test_dp_diag test_dp_time test_dp_bus
+DP_TESTS = test_dp_frames test_dp_fcb test_dp_prm test_dp_cfg test_dp_data test_dp_diag test_dp_time test_dp_bus \
+           test_dp_errors
 UNIT_TESTS += $(DP_TESTS)
 define dp_test
 $1_SRC = $$(DP_TEST01_BENCH)
 $1_DEFAULTS = $$(DP_DEFAULTS)
 endef
 $(foreach t,$(DP_TESTS),$(eval $(call dp_test,$t)))
+
+# A station of any configuration, straight from and to memory.
+DP_ANY_BENCH = $(DP_SRC) $(SIM_BUS) host_tests/dp_fixture.c host_tests/dp_station_any.c
+
+UNIT_TESTS += test_dp_replay
+test_dp_replay_SRC = $(DP_ANY_BENCH)
+test_dp_replay_CONFIG := host_tests/config/dp_any.h
+test_dp_replay_DEFAULTS = $(DP_DEFAULTS)
