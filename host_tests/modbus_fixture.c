@@ -13,7 +13,7 @@ uint8_t coils_13[5], coils_ac[4], coils_big[250], inputs_c4[3], inputs_big[250];
 uint16_t holding_0[32], holding_6b[3], holding_big[125], inputs_8[1], input_regs_big[125];
 uint16_t fifo_4de[32], fifo_bad[32], fifo_short[4], file_3[16], file_4[16], file_9[128];
 
-const struct mb_block CODE mb_map[] = {
+static const struct mb_block CODE blocks[] = {
     {MB_COILS, 0x0013, 37, coils_13},
     {MB_COILS, 0x00AC, 30, coils_ac},
     {MB_COILS, 0x0300, 8, NULL},
@@ -34,6 +34,7 @@ const struct mb_block CODE mb_map[] = {
     {MB_FILE, 9, 128, file_9},
     MB_MAP_END,
 };
+const struct mb_block CODE *mb_map = blocks;
 
 /* ---- the application ----------------------------------------------------------------------------------- */
 
@@ -49,6 +50,11 @@ uint8_t mb_check_ind(void)
     return mb_span.write ? fx.veto : fx.read_veto;
 }
 
+static void write_bit(unsigned bit, unsigned value)
+{
+    fx.callback_bits = (uint8_t)((fx.callback_bits & ~(1u << bit)) | value << bit);
+}
+
 uint8_t mb_block_ind(void)
 {
     for (uint16_t i = 0; i < mb_span.qty; i++) {
@@ -57,10 +63,9 @@ uint8_t mb_block_ind(void)
         else if (mb_span.table == MB_HOLDING)
             mb_span_put(i, fx.callback[mb_span.addr - 0x200 + i]);
         else if (mb_span.write)
-            fx.callback_bits = (uint8_t)((fx.callback_bits & ~(1u << (mb_span.addr - 0x300 + i))) |
-                                         mb_span_get(i) << (mb_span.addr - 0x300 + i));
+            write_bit(mb_span.addr - 0x300u + i, mb_span_get(i));
         else
-            mb_span_put(i, fx.callback_bits >> (mb_span.addr - 0x300 + i) & 1u);
+            mb_span_put(i, fx.callback_bits >> (mb_span.addr - 0x300u + i) & 1u);
     }
     return MB_OK;
 }
@@ -158,7 +163,7 @@ void fixture_begin(uint8_t address, uint8_t mode)
     fill();
     hv_begin();
     mbc_begin(&client);
-    client.mode = mode == MB_ASCII ? MBC_ASCII : MBC_RTU;
+    client.coding.mode = mode == MB_ASCII ? MBC_ASCII : MBC_RTU;
     hal_init();
     memset(&mb_port, 0, sizeof mb_port);
     memset(&mb_diag, 0, sizeof mb_diag);

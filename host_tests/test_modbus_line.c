@@ -205,8 +205,8 @@ static void test_rtu_256_octets_are_a_frame_257_are_not(void)
     }
     for (unsigned i = 0; i < 2; i++) { /* 512 octets that are two good frames of 256, but without a silence */
         uint8_t frame[2 * MBC_FRAME_MAX];
-        mbc_frame(&client, body, 254, frame);
-        mbc_frame(&client, body, 254, frame + 256);
+        mbc_frame(&client.coding, body, 254, 0, frame);
+        mbc_frame(&client.coding, body, 254, 0, frame + 256);
         mbc_put(&client, frame, 512);
         silence_then_good();
     }
@@ -259,7 +259,7 @@ static void test_a_late_answer_is_not_sent_into_the_next_request(void)
     uint8_t got[MBC_FRAME_MAX], frame[MBC_FRAME_MAX];
     fx.spend = 200 * HV_MS; /* the application is slow */
     mbc_send(&client, request, sizeof request);
-    const unsigned n = mbc_frame(&client, request, sizeof request, frame);
+    const unsigned n = mbc_frame(&client.coding, request, sizeof request, 0, frame);
     for (unsigned i = 0; i < n; i++) /* after 150 ms the client gives up and asks again */
         hv_inject(hv_now() + 150 * HV_MS + i * 11 * hv_bit(), frame[i], 0);
     client.time_out = HV_S;
@@ -366,7 +366,7 @@ static void test_ascii_the_delimiter_can_be_changed(void)
     ask_text(":110800032300C1\r\n", ":110800032300C1\r\n"); /* '#' is 23H */
     ask_text(":1103006B000180\r#", ":110302022BBD\r#");
     ask_text(":1103006B000180\r\n", NULL);
-    client.delimiter = '#';
+    client.coding.delimiter = '#';
     ask("11 08 00 03 00 0A", "11 88 03"); /* the character stands in the high octet; pymodbus does this */
     ask("11 08 00 03 00 00", "11 88 03");
     ask("11 08 00 03 3A 00", "11 88 03"); /* our choice: not ':', CR, a digit, or above 7FH */
@@ -374,7 +374,7 @@ static void test_ascii_the_delimiter_can_be_changed(void)
     ask("11 08 00 03 41 00", "11 88 03");
     ask("11 08 00 03 8A 00", "11 88 03");
     ask("11 08 00 01 00 00", "11 08 00 01 00 00");
-    client.delimiter = '\n';
+    client.coding.delimiter = '\n';
     ask(GOOD, ANSWER); /* a restart brings LF back */
 }
 
@@ -408,7 +408,7 @@ static void test_mode_rate_and_parity_are_chosen_at_run_time(void)
                 mb_port.format = formats[mode][f];
                 TEST_ASSERT_EQUAL(HAL_LINE_TIMED, mb_open());
                 TEST_ASSERT_EQUAL(formats[mode][f], hv_format());
-                client.mode = mode == MB_ASCII ? MBC_ASCII : MBC_RTU;
+                client.coding.mode = mode == MB_ASCII ? MBC_ASCII : MBC_RTU;
                 mbc_idle(300);
                 ask(GOOD, ANSWER);
                 mbc_idle(300);

@@ -1,17 +1,9 @@
-/* A Modbus serial client ("master") with its own encoder, RTU and ASCII, that can also be wrong on purpose.
- *
- * The encoder half (mbc_frame, mbc_unframe) knows no time. The line half talks to the station on the virtual port
- * (hal_virtual.h). Source: Modbus over serial line V1.02, 2.5.
- */
+/* A Modbus serial client ("master") on the virtual port's line, RTU and ASCII, that can also be wrong on purpose. */
 #ifndef SIM_MODBUS_CLIENT_H
 #define SIM_MODBUS_CLIENT_H
 
 #include "hal_virtual.h"
-
-#define MBC_PDU_MAX   253u
-#define MBC_FRAME_MAX 600u
-
-enum mbc_mode { MBC_RTU, MBC_ASCII };
+#include "sim/modbus_frame.h"
 
 /* What is wrong with the next frames; all 0: nothing. Positions count octets in RTU, characters in ASCII. */
 struct mbc_wrong {
@@ -29,8 +21,7 @@ struct mbc_wrong {
 };
 
 struct mbc {
-    enum mbc_mode mode;
-    uint8_t delimiter; /* ASCII: '\n' */
+    struct mbc_coding coding;
     struct mbc_wrong wrong;
     hv_time time_out; /* for an answer */
     /* what was heard: */
@@ -38,16 +29,6 @@ struct mbc {
     unsigned heard_n;
     hv_time request_end, answer_start, answer_end;
 };
-
-/* CRC-16 and LRC, bit by bit and by the book. */
-uint16_t mbc_crc(const uint8_t *octets, unsigned n);
-uint8_t mbc_lrc(const uint8_t *octets, unsigned n);
-
-/* body = address and PDU, n octets, to a whole frame. -> octets or characters of the frame */
-unsigned mbc_frame(const struct mbc *c, const uint8_t *body, unsigned n, uint8_t *frame);
-
-/* A whole frame back to address and PDU. -> octets, 0: it is not a good frame */
-unsigned mbc_unframe(const struct mbc *c, const uint8_t *frame, unsigned n, uint8_t *body);
 
 /* The client takes the line of the virtual port; mode RTU, nothing wrong, time-out 1 s. Once, after hv_begin(). */
 void mbc_begin(struct mbc *c);

@@ -62,8 +62,9 @@ struct mb_block {
     void XDATA *data;
 };
 
-/* All blocks of the station, ended by MB_MAP_END. From the application. */
-extern const struct mb_block CODE mb_map[];
+/* All blocks of the station, ended by MB_MAP_END. From the application, which may change it between two calls of
+ * mb_poll(). */
+extern const struct mb_block CODE *mb_map;
 #define MB_MAP_END                                                                                           \
     {                                                                                                        \
         0, 0, 0, NULL                                                                                        \
