@@ -23,3 +23,5 @@ MON = $(addprefix sim/,mon_split.c mon_record.c mon_pair.c mon_view.c mon_detail
 PROGRAMS += fieldling-mon
 fieldling-mon_SRC    = sim/fieldling_mon.c sim/port.c $(MON)
 fieldling-mon_LDLIBS = -lm
+
+SCRIPT_TESTS += host_tests/mon_views.py host_tests/wireshark.py

@@ -165,13 +165,14 @@ static double timing(FILE *to, double y)
     bool used[KINDS] = {false};
     window(&from, &until, &cycle_ms);
     const unsigned n = lanes(from, until, lane_of, station_of);
+    const unsigned known = n && station_of[n - 1] == 128 ? n - 1 : n;
     const uint64_t zero = frames[from].start;
     const double span = (double)(frames[until - 1].end - zero) / 1e6;
     const double scale = (WIDTH - LEFT - RIGHT) / span;
     if (cycle_ms > 0)
-        snprintf(label, sizeof label, "The last bus cycles: %.3f ms each, %u stations, %g kbit/s", cycle_ms, n, mon.rate / 1e3);
+        snprintf(label, sizeof label, "The last bus cycles: %.3f ms each, %u stations, %g kbit/s", cycle_ms, known, mon.rate / 1e3);
     else
-        snprintf(label, sizeof label, "The last telegrams: %u stations, %g kbit/s", n, mon.rate / 1e3);
+        snprintf(label, sizeof label, "The last telegrams: %u stations, %g kbit/s", known, mon.rate / 1e3);
     fprintf(to, "<text x=\"%.1f\" y=\"%.1f\" font-size=\"15\" font-weight=\"bold\">%s</text>\n", LEFT, y, label);
     y += 16;
     for (unsigned i = 0; i < n; i++) {
@@ -226,29 +227,32 @@ static void histogram(FILE *to, double y)
     double span = max_t_sdr() * 1.1;
     for (size_t i = 0; i < t_sdr_n; i++)
         if (t_sdr[i] > span)
-            span = t_sdr[i] * 1.02;
+            span = t_sdr[i];
+    /* whole bit times wide, with an edge at min_T_SDR: half a bit time below 11 still rounds to it */
+    const double step = ceil(span / (BINS - 1)), first = fmod(11, step) - step - 0.5;
     for (size_t i = 0; i < t_sdr_n; i++) {
-        unsigned *const bin = &bins[(unsigned)(t_sdr[i] / span * (BINS - 0.001))];
+        unsigned *const bin = &bins[(unsigned)((t_sdr[i] - first) / step)];
         if (++*bin > most)
             most = *bin;
     }
-    const double scale = (WIDTH - LEFT - RIGHT) / span, width = (WIDTH - LEFT - RIGHT) / BINS;
+    span = first + BINS * step;
+    const double scale = (WIDTH - LEFT - RIGHT) / span, width = step * scale;
     snprintf(label, sizeof label, "T_SDR of %lu answers [T_bit]", (unsigned long)t_sdr_n);
     fprintf(to, "<text x=\"%.1f\" y=\"%.1f\" font-size=\"15\" font-weight=\"bold\">%s</text>\n", LEFT, y, label);
     const double top = y + 16, bottom = top + HISTOGRAM;
     fprintf(to, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#888\"/>\n", LEFT, bottom, WIDTH - RIGHT, bottom);
     for (unsigned i = 0; i < BINS; i++) {
-        const double h = (HISTOGRAM - 24) * bins[i] / most;
+        const double h = (HISTOGRAM - 40) * bins[i] / most, x = LEFT + (first + i * step) * scale;
         if (!bins[i])
             continue;
-        fprintf(to, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"#3a9d5d\"/>\n", LEFT + i * width + 1,
-                bottom - h, width - 2, h);
+        fprintf(to, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"#3a9d5d\"/>\n", x + 1, bottom - h,
+                width - 2, h);
         snprintf(label, sizeof label, "%u", bins[i]);
-        text(to, LEFT + (i + 0.5) * width, bottom - h - 4, "middle", label);
+        text(to, x + width / 2, bottom - h - 4, "middle", label);
     }
     snprintf(label, sizeof label, "max_T_SDR %u", max_t_sdr());
-    mark(to, LEFT + 11 * scale, top, bottom, "min 11");
-    mark(to, LEFT + max_t_sdr() * scale, top, bottom, label);
+    mark(to, LEFT + 10.5 * scale, top, bottom, "min_T_SDR 11");
+    mark(to, LEFT + (max_t_sdr() + 0.5) * scale, top, bottom, label);
     axis(to, bottom, span, "");
 }
 
