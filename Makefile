@@ -148,7 +148,7 @@ test: setup
 
 check:
 	@test -d build/unity && test -x $(PYTHON) || sh host_tests/setup.sh
-	@$(MAKE) --no-print-directory $J build-tests static
+	@$(MAKE) --no-print-directory $J build-tests build-asan static
 	@$(RUN_PY) $(call timed,$(UNIT_TESTS),build/test/) $(call timed,$(QUICK_TESTS))
 
 bench: all
