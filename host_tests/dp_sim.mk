@@ -26,3 +26,18 @@ UNIT_TESTS += test_dp_replay
 test_dp_replay_SRC = $(DP_ANY_BENCH)
 test_dp_replay_CONFIG := host_tests/config/dp_any.h
 test_dp_replay_DEFAULTS = $(DP_DEFAULTS)
+
+# The stack with a call at every branch, where the test interrupts it; nothing else is compiled so. The station itself
+# has the callbacks left out here.
+PREEMPT_OBJ = $(patsubst %.c,build/test/obj/preempt/%.o,\
+    $(filter-out %/default_adapt_cfg.c %/default_fault.c,$(DP_ALL)))
+build/test/obj/preempt/%.o: %.c
+	@mkdir -p $(@D)
+	$(call say,CC,$@)gcc $(WARNINGS) $(INCLUDES) -O1 -g -fsanitize-coverage=trace-pc -MMD -MP \
+	    -DFIELDLING_CONFIG='"$(test_dp_consistency_CONFIG)"' -c $< -o $@
+-include $(PREEMPT_OBJ:.o=.d)
+
+UNIT_TESTS += test_dp_consistency
+test_dp_consistency_SRC = $(SIM_BUS) host_tests/dp_fixture.c host_tests/dp_station_any.c
+test_dp_consistency_CONFIG := host_tests/config/dp_any.h
+build/test/test_dp_consistency build/asan/test_dp_consistency: $(PREEMPT_OBJ)

@@ -196,6 +196,11 @@ void hv_spend(hv_time duration)
         hv_vm.now = end;
 }
 
+bool hv_interruptible_now(void)
+{
+    return hv_interruptible();
+}
+
 hv_time hv_now(void)
 {
     return hv_vm.now;

@@ -43,6 +43,9 @@ void hv_set_loop(void (*loop)(void), hv_time (*wait)(void));
 /* Main code takes this long: events and interrupts happen meanwhile (masked ones are deferred). main, lock. */
 void hv_spend(hv_time duration);
 
+/* Could an interrupt happen now? False in an interrupt and while they are masked. */
+bool hv_interruptible_now(void);
+
 /* Address switches (default 126); NV memory as the station sees it; make the next writes of NV fail. */
 void hv_set_switches(uint8_t address);
 extern uint8_t hv_nv[HAL_NV_SIZE];
