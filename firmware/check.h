@@ -25,7 +25,7 @@
 #define HOT       __data
 #define IDATA     __idata
 #define CODE      __code
-#define IN_ISR
+#define IN_ISR    __using(1)
 #define REENTRANT __reentrant
 #else
 #define XDATA

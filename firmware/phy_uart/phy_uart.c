@@ -21,9 +21,8 @@ static const CODE struct phy_rate rates[PHY_BAUDS] = {
 
 HOT volatile struct phy_rx phy_rx;
 
-/* Invariant: at most one of `waiting` (an answer waits for T_SDR) and `sending` is set. */
+/* Invariant: at most one of phy_rx.waiting and sending is set. */
 static HOT volatile struct {
-    bool waiting;
     bool sending;
     bool untimed;    /* the line cannot show silence     */
     bool transmitter; /* Transmitter_output is enabled    */
@@ -64,20 +63,20 @@ void phy_answer_isr(const uint8_t XDATA *frame, uint8_t n) IN_ISR
         return;
     answer = frame;
     answer_len = n;
-    line.waiting = true;
+    phy_rx.waiting = true;
     hal_silence(t_sdr);
 }
 
 static void cancel_answer_isr(void) IN_ISR
 {
-    line.waiting = false;
+    phy_rx.waiting = false;
     hal_silence(t_syn);
     phy_cancelled_ind_isr();
 }
 
 void line_octet_isr(uint8_t octet, uint8_t err) IN_ISR
 {
-    if (line.waiting)
+    if (phy_rx.waiting)
         cancel_answer_isr();
     if (err) {
         phy_rx.left = 0;
@@ -95,8 +94,8 @@ void line_octet_isr(uint8_t octet, uint8_t err) IN_ISR
 
 void line_silence_isr(void) IN_ISR
 {
-    if (line.waiting) {
-        line.waiting = false;
+    if (phy_rx.waiting) {
+        phy_rx.waiting = false;
         line.sending = true;
         phy_rx.left = 0;
         hal_send(answer, answer_len);
@@ -151,7 +150,7 @@ static uint8_t open_line(uint8_t baud, uint8_t loop)
     kind = hal_line_open(phy_bit_per_s(baud), format);
     if (kind != HAL_LINE_NO) {
         line.untimed = kind == HAL_LINE_UNTIMED;
-        line.waiting = false;
+        phy_rx.waiting = false;
         line.sending = false;
         phy_rx.left = 0;
         t_syn_tbit = gap_tbit(phy_bit_per_s(baud));
@@ -168,7 +167,7 @@ void phy_reset(void)
 
     hal_silence(0);
     phy_rx.left = 0;
-    line.waiting = false;
+    phy_rx.waiting = false;
     line.sending = false;
     line.transmitter = true;
     value_of[PHY_TRANSMITTER_OUTPUT] = PHY_ENABLED;
@@ -186,8 +185,8 @@ static void set_transmitter(uint8_t value)
     uint8_t irq = hal_irq_save();
 
     line.transmitter = value == PHY_ENABLED;
-    if (!line.transmitter && line.waiting) {
-        line.waiting = false;
+    if (!line.transmitter && phy_rx.waiting) {
+        phy_rx.waiting = false;
         hal_silence(t_syn);
     }
     hal_irq_restore(irq);

@@ -64,12 +64,15 @@ void phy_event_ind(uint8_t variable, uint8_t value);
 
 /* ---- octets, isr ---------------------------------------------------------------------------------------- */
 
-/* Where the receiver is in the chunk. left == 0: deaf, octets are dropped until someone asks for more.
+/* Where the receiver is in the chunk. left == 0: deaf, octets are dropped until someone asks for more. A port may do
+ * an octet's work on this struct itself where line_octet_isr() costs too much, and need not call it at all while the
+ * receiver is deaf and no answer waits.
  * Invariant: at[0..left-1] may be written. */
 struct phy_rx {
     uint8_t XDATA *at; /* next octet goes here                             */
     uint8_t left;      /* octets missing                                   */
     uint8_t sum;       /* of all octets since it was last cleared, mod 256 */
+    bool waiting;      /* an answer waits for T_SDR: an octet cancels it   */
 };
 extern HOT volatile struct phy_rx phy_rx;
 

@@ -1,0 +1,11 @@
+/* Octets one by one to line_octet_isr(): for stacks that look at each. */
+#include "hal/mcs51/mcs51.h"
+
+void take_isr(void) __using(2)
+{
+    line_octet_isr(octet, octet_err);
+}
+
+void look_isr(void) __using(2)
+{
+}
