@@ -25,3 +25,4 @@ fieldling-mon_SRC    = sim/fieldling_mon.c sim/port.c $(MON)
 fieldling-mon_LDLIBS = -lm
 
 SCRIPT_TESTS += host_tests/mon_views.py host_tests/wireshark.py
+SCRIPT_TESTS_ONCE += host_tests/sigrok.py
