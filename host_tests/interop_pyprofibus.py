@@ -60,16 +60,16 @@ class LossyPhy(CpPhySerial):
 class Master:
     """A class 1 master with DP-TEST01 as its only slave, described by hand."""
 
-    def __init__(self, pty, watchdog_ms=5000, phy_class=CpPhySerial):
+    def __init__(self, pty, watchdog_ms=5000, phy_class=CpPhySerial, address=ADDRESS):
         phy = phy_class(port=pty)
         phy.setConfig(baudrate=RATE)
         self.dp = DPM1(phy=phy, masterAddr=MASTER)
         self.slave = DpSlaveDesc()
-        self.slave.slaveAddr = ADDRESS
+        self.slave.slaveAddr = address
         self.slave.inputSize = 2   # from the slave's side: master to slave
         self.slave.outputSize = 2  # slave to master
         for telegram in (self.slave.setPrmTelegram, self.slave.chkCfgTelegram):
-            telegram.da = ADDRESS
+            telegram.da = address
         self.slave.setPrmTelegram.identNumber = IDENT
         self.slave.setCfgDataElements([DpCfgDataElement(module) for module in MODULES])
         self.slave.setWatchdog(watchdog_ms)

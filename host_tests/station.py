@@ -17,13 +17,16 @@ class Station:
     def __init__(self, program, *arguments):
         self.folder = tempfile.mkdtemp(prefix="fieldling-")
         self.pty = os.path.join(self.folder, "line")
+        self._start([os.path.join(os.environ.get("FIELDLING_BIN", "build/posix"), program), "--line", "pty:" + self.pty,
+                     *arguments])
+        self.wait(lambda: os.path.islink(self.pty), "the line")
+
+    def _start(self, command):
+        """The console is the process's standard input and output."""
         self.traces = []  # trace lines in the order they came
         self._answers = queue.Queue()
-        command = [os.path.join(os.environ.get("FIELDLING_BIN", "build/posix"), program), "--line", "pty:" + self.pty]
-        self.process = subprocess.Popen([*command, *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                        text=True, bufsize=1)
+        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, bufsize=1)
         threading.Thread(target=self._read, daemon=True).start()
-        self.wait(lambda: os.path.islink(self.pty), "the line")
 
     def __enter__(self):
         return self
