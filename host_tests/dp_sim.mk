@@ -27,13 +27,13 @@ test_dp_replay_SRC = $(DP_ANY_BENCH)
 test_dp_replay_CONFIG := host_tests/config/dp_any.h
 test_dp_replay_DEFAULTS = $(DP_DEFAULTS)
 
-# The stack with a call at every branch, where the test interrupts it; nothing else is compiled so. The station itself
-# has the callbacks left out here.
+# The stack with a call before every access to memory, where the test interrupts it; nothing else is compiled so. The
+# station itself has the callbacks left out here.
 PREEMPT_OBJ = $(patsubst %.c,build/test/obj/preempt/%.o,\
     $(filter-out %/default_adapt_cfg.c %/default_fault.c,$(DP_ALL)))
 build/test/obj/preempt/%.o: %.c
 	@mkdir -p $(@D)
-	$(call say,CC,$@)gcc $(WARNINGS) $(INCLUDES) -O1 -g -fsanitize-coverage=trace-pc -MMD -MP \
+	$(call say,CC,$@)gcc $(WARNINGS) $(INCLUDES) -O1 -g -fsanitize=thread -MMD -MP \
 	    -DFIELDLING_CONFIG='"$(test_dp_consistency_CONFIG)"' -c $< -o $@
 -include $(PREEMPT_OBJ:.o=.d)
 

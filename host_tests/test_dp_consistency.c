@@ -1,7 +1,8 @@
 /* Nobody sees half an old and half a new telegram: outputs, inputs, diagnosis (ddlm.h, promises 1 and 3).
  *
- * The main loop is interrupted anywhere. The stack is compiled so that it calls __sanitizer_cov_trace_pc() at every
- * branch; at some of them, chosen at random, the time of up to two characters passes and interrupts happen right there.
+ * The main loop is interrupted anywhere. The stack is compiled with the compiler's hooks for a race detector, which are
+ * called before every access to memory; here, at some of them chosen at random, the time of up to two characters passes
+ * and interrupts happen right there.
  * All octets of one piece of data are equal, so any mixture shows. */
 #include "dp_fixture.h"
 
@@ -18,8 +19,7 @@ static struct {
     unsigned one_in, times;
 } preempt;
 
-void __sanitizer_cov_trace_pc(void);
-void __sanitizer_cov_trace_pc(void)
+static void interrupt_perhaps(void)
 {
     if (!preempt.armed || !hv_interruptible_now() || sim_below(&preempt.dice, preempt.one_in) != 0)
         return;
@@ -27,6 +27,54 @@ void __sanitizer_cov_trace_pc(void)
     preempt.times++;
     hv_spend(1 + sim_below(&preempt.dice, (uint32_t)(22 * hv_bit())));
     preempt.armed = true;
+}
+
+/* What the compiler calls before an access (and at entry and exit of functions, where nothing is done). */
+#define BEFORE(name)                                                                                         \
+    void __tsan_##name(void *at);                                                                            \
+    void __tsan_##name(void *at)                                                                             \
+    {                                                                                                        \
+        (void)at;                                                                                            \
+        interrupt_perhaps();                                                                                 \
+    }
+#define BEFORE_RANGE(name)                                                                                   \
+    void __tsan_##name(void *at, unsigned long size);                                                        \
+    void __tsan_##name(void *at, unsigned long size)                                                         \
+    {                                                                                                        \
+        (void)at;                                                                                            \
+        (void)size;                                                                                          \
+        interrupt_perhaps();                                                                                 \
+    }
+#define NOTHING(name, parameter)                                                                             \
+    void __tsan_##name(parameter);                                                                           \
+    void __tsan_##name(parameter)                                                                            \
+    {                                                                                                        \
+    }
+BEFORE(read1)
+BEFORE(read2)
+BEFORE(read4)
+BEFORE(read8)
+BEFORE(write1)
+BEFORE(write2)
+BEFORE(write4)
+BEFORE(write8)
+BEFORE(read16)
+BEFORE(write16)
+BEFORE(unaligned_read2)
+BEFORE(unaligned_read4)
+BEFORE(unaligned_read8)
+BEFORE(unaligned_write2)
+BEFORE(unaligned_write4)
+BEFORE(unaligned_write8)
+BEFORE_RANGE(read_range)
+BEFORE_RANGE(write_range)
+NOTHING(init, void)
+NOTHING(func_exit, void)
+
+void __tsan_func_entry(void *from);
+void __tsan_func_entry(void *from)
+{
+    (void)from;
 }
 
 static bool uniform(const uint8_t *octets, unsigned n)
@@ -81,7 +129,7 @@ void setUp(void)
     static const uint8_t cfg[] = {0xF3, 0x7B};
     preempt.armed = false;
     preempt.dice = 1;
-    preempt.one_in = 100;
+    preempt.one_in = 300;
     preempt.times = 0;
     mixed_outputs = mixed_inputs = mixed_diag = news = 0;
     dp_adapts = false;
@@ -152,29 +200,29 @@ static void run(unsigned exchanges)
 
 static void nothing_is_half_old_half_new_with_the_main_loop_interrupted_anywhere(void)
 {
-    run(dp_count(1000, 20000));
+    run(dp_count(5000, 50000));
 }
 
 static void nor_when_it_is_interrupted_nearly_everywhere(void)
 {
     preempt.one_in = 20;
-    run(dp_count(300, 5000));
+    run(dp_count(2000, 20000));
 }
 
 static void nor_when_requests_and_answers_get_lost(void)
 {
     bus_fault(FLT_LOST_ANSWER, 5, 7);
-    run(dp_count(300, 5000));
+    run(dp_count(2000, 20000));
     bus_fault(FLT_LOST_REQUEST, 5, 8);
-    run(dp_count(600, 10000));
+    run(dp_count(4000, 40000));
 }
 
 /* A reset in the middle of anything: the station comes back. */
 static void a_restart_in_the_middle_of_anything_leads_back_to_data_exchange(void)
 {
     for (unsigned i = 0; i < dp_count(30, 300); i++) {
-        const unsigned starts = slave.starts;
         hv_run_for(sim_below(&preempt.dice, 20 * HV_MS));
+        const unsigned starts = slave.starts;
         dp_power_cycle();
         for (unsigned k = 0; k < 500 && slave.starts == starts; k++)
             hv_run_for(10 * HV_MS);
