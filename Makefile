@@ -119,7 +119,7 @@ ASAN_PROGRAMS  := $(addprefix build/asan/,$(PROGRAMS))
 TEST_PROGRAMS  := $(addprefix build/test/,$(UNIT_TESTS))
 ASAN_TESTS     := $(addprefix build/asan/,$(UNIT_TESTS))
 
-.PHONY: all setup run test check bench size clean help build-tests build-asan boards static \
+.PHONY: all setup run test check asan bench size clean help build-tests build-asan boards static \
         $(BENCHES) $(SIZES) $(STATIC)
 
 all: $(POSIX_PROGRAMS)
@@ -151,6 +151,10 @@ check:
 	@$(MAKE) --no-print-directory $J build-tests build-asan static
 	@$(RUN_PY) $(call timed,$(UNIT_TESTS),build/test/) $(call timed,$(QUICK_TESTS))
 
+asan:
+	@$(MAKE) --no-print-directory $J build-asan
+	@$(RUN_PY) $(call timed,$(UNIT_TESTS),build/asan/)
+
 bench: all
 	@for b in $(BENCHES); do $(MAKE) --no-print-directory $$b || exit 1; done
 
@@ -166,6 +170,7 @@ help:
 	@echo "make setup               install what tests and demos need; says what it does, quick when all is there"
 	@echo "make run PROTOCOL=dp     live demonstration: a station and a master on a simulated bus (dp, modbus)"
 	@echo "make check               unit tests, 8051 and Cortex-M compile, static checks: under a minute"
+	@echo "make asan                the unit tests again, by clang with AddressSanitizer and UBSan"
 	@echo "make test                everything: all boards, sanitizers, foreign masters; ends in N passed, N failed"
 	@echo "make bench               measured figures on this machine"
 	@echo "make size                code and RAM of programs and images"

@@ -76,13 +76,13 @@ void mb_written_ind(void)
     fx.last = mb_span;
 }
 
-uint8_t mb_lock_ind(void)
+uint8_t fixture_lock(void)
 {
     fx.locks++;
     return hal_irq_save();
 }
 
-void mb_unlock_ind(uint8_t state)
+void fixture_unlock(uint8_t state)
 {
     fx.unlocks++;
     hal_irq_restore(state);
@@ -204,7 +204,7 @@ static void expect_frame(const char *request, const uint8_t *want, unsigned want
                          unsigned n)
 {
     char text[4 * MBC_FRAME_MAX];
-    if (want_n == n && memcmp(want, got, n) == 0)
+    if (want_n == n && (n == 0 || memcmp(want, got, n) == 0))
         return;
     snprintf(text, sizeof text, "%s: %.600s, expected %.600s", request, n ? as_hex(got, n) : "silence",
              want_n ? as_hex(want, want_n) : "silence");
