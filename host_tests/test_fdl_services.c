@@ -447,14 +447,18 @@ static void fdl_poll_hands_over_what_waited_when_it_was_called(void)
     OCTETS("09", ind.lsdu, 1);
 }
 
-static void waiting_is_known_in_the_interrupt(void)
+static void what_waits_is_known_in_the_interrupt_by_sap_and_station(void)
 {
     unit_srd_sap(FDL_TO_MAIN);
-    TEST_ASSERT_FALSE(fdl_waiting_isr());
+    TEST_ASSERT_FALSE(fdl_waiting_isr(10));
     ask_10(1);
-    TEST_ASSERT_TRUE(fdl_waiting_isr());
+    TEST_ASSERT_TRUE(fdl_waiting_isr(10));
+    TEST_ASSERT_FALSE(fdl_waiting_isr(11));
+    request("10 08 03 49 54 16");
+    TEST_ASSERT_FALSE(fdl_waiting_isr(10)); /* another station's */
     fdl_poll();
-    TEST_ASSERT_FALSE(fdl_waiting_isr());
+    request("10 08 02 49 53 16");
+    TEST_ASSERT_FALSE(fdl_waiting_isr(10));
 }
 
 /* ---- kept buffers ---- */
@@ -674,7 +678,7 @@ int main(void)
     RUN_TEST(an_sdn_without_a_free_box_is_lost_as_the_service_allows);
     RUN_TEST(boxes_turn_many_times_without_losing_one);
     RUN_TEST(fdl_poll_hands_over_what_waited_when_it_was_called);
-    RUN_TEST(waiting_is_known_in_the_interrupt);
+    RUN_TEST(what_waits_is_known_in_the_interrupt_by_sap_and_station);
     RUN_TEST(a_kept_l_sdu_stays_while_others_come_and_go);
     RUN_TEST(three_kept_and_three_waiting_leave_one_to_receive_with);
     RUN_TEST(ident_is_answered_with_four_lengths_and_four_strings);

@@ -14,8 +14,8 @@ struct fdl_reply XDATA ddlm_diag_reply;
 static uint8_t XDATA rooms[3][FDL_ROOM(MAX_LEN)];
 static uint8_t XDATA diag[MAX_LEN];
 
-/* What is said while a Set_Prm or Chk_Cfg has been acknowledged but not looked at yet: not ready, nothing wrong. A
- * master that polls faster than the main loop turns would otherwise read "parameters requested" and begin anew. */
+/* What is said to a master whose Set_Prm or Chk_Cfg has been acknowledged but not looked at yet: not ready, nothing wrong.
+ * A master that polls faster than the main loop turns would otherwise read "parameters requested" and begin anew. */
 static struct fdl_reply XDATA pending_reply;
 static uint8_t XDATA pending_rooms[3][FDL_ROOM(FIXED_LEN)];
 
@@ -85,7 +85,7 @@ void ddlm_diag_poll(void)
 /* The owner has the news; anybody else may look without taking them away. */
 void ddlm_diag_read_isr(void) IN_ISR
 {
-    if (fdl_waiting_isr())
+    if (fdl_waiting_isr(SAP_SET_PRM) || fdl_waiting_isr(SAP_CHK_CFG))
         fdl_req.reply = &pending_reply;
     else if (fdl_req.sa == ddlm.master && !(flags & DDLM_STAT_DIAG))
         ddlm_input_reply.high = false;

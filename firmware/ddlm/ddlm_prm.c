@@ -92,10 +92,10 @@ void ddlm_set_prm_ind(const struct fdl_ind XDATA *ind)
     len = ind->len;
     if (ddlm.state == DDLM_POWER_ON || (ddlm.master != DDLM_NO_MASTER && ddlm.master != ind->sa)) {
         ddlm_counters.not_processed++; /* locked to another master */
-    } else if (len < PRM_LEN) {
+    } else if (len < PRM_LEN || ((prm[0] & UNLOCK) && get_u16be(prm + 4) != DEV_IDENT)) {
         reject(DIAG_PRM_FAULT);
     } else if (prm[0] & UNLOCK) {
-        ddlm.faults = get_u16be(prm + 4) == DEV_IDENT ? 0 : DIAG_PRM_FAULT;
+        ddlm.faults = 0;
         ddlm_leave_master();
     } else if (prm[0] & LOCK) {
         take(ind->sa);

@@ -98,9 +98,14 @@ static uint8_t box_isr(void) IN_ISR
     return FDL_OK;
 }
 
-bool fdl_waiting_isr(void) IN_ISR
+bool fdl_waiting_isr(uint8_t dsap) IN_ISR
 {
-    return box_in != box_out;
+    uint8_t box;
+
+    for (box = box_out; box != box_in; box = next_box_isr(box))
+        if (boxes[box].ind.dsap == dsap && boxes[box].ind.sa == fdl_req.sa)
+            return true;
+    return false;
 }
 
 void fdl_poll(void)

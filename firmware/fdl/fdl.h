@@ -192,8 +192,8 @@ extern HOT struct fdl_req fdl_req;
  * buffer; FDL_RS, FDL_RR or FDL_UE: refuse. The value is ignored for SDN. isr. */
 uint8_t fdl_ind_isr(void) IN_ISR;
 
-/* Is there an indication that the main loop has not taken yet? isr. */
-bool fdl_waiting_isr(void) IN_ISR;
+/* Is there an indication for SAP dsap, from the station of fdl_req, that the main loop has not dealt with yet? isr. */
+bool fdl_waiting_isr(uint8_t dsap) IN_ISR;
 
 /* Keep the L_sdu of fdl_req beyond this interrupt: FDL takes `exchange`, a buffer got from this function before, for
  * the next telegram (0: one from its own stock, which has enough for FDL_KEPT_MAX kept). isr. */
