@@ -2,15 +2,15 @@
 # and the house rules that can be read off the text.
 
 PORTABLE := $(sort $(wildcard firmware/*.c $(addsuffix /*.c,$(addprefix firmware/,phy_uart fdl ddlm modbus hdlc))))
-HEADERS  := $(wildcard firmware/*.h firmware/*/*.h firmware/hal/blank/*.h boards/common/*.h boards/blank/*.h)
+HEADERS  := $(wildcard firmware/*.h firmware/*/*.h firmware/hal/blank/*.h boards/common/*.h)
 
 # --nooverlay: SDCC would overlay the spilled temporaries of functions that call nothing, without asking whether one
 # of them runs in an interrupt (host_tests/bad_samples/overlay.c).
 # 110, 126: an `if` on a constant of the configuration; anything else it prints is a failure.
 SDCC      := sdcc -mmcs51 --std-c11 --model-large --nooverlay --Werror --disable-warning 110 --disable-warning 126
 ARM_CC    := arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb -Os -std=c99 -Wall -Wextra -Wconversion -Werror
-BLANK     := -Ifirmware -Ifirmware/hal/blank -Iboards/common -Iboards/blank \
-             -DFIELDLING_CONFIG='"dp_test01.h"' -DMB_CONFIG='"mb_blank.h"'
+BLANK     := -Ifirmware -Ifirmware/hal/blank -Iboards/common \
+             -DFIELDLING_CONFIG='"dp_test01.h"' -DMB_CONFIG='"inverter_mb.h"'
 BLANK_RELS := $(patsubst %.c,build/blank/mcs51/%.rel,$(PORTABLE) firmware/hal/hal_blank.c)
 BLANK_OBJS := $(patsubst %.c,build/blank/cortexm0/%.o,$(PORTABLE) firmware/hal/hal_blank.c)
 
@@ -25,7 +25,7 @@ build/blank/cortexm0/%.o: %.c $(HEADERS) host_tests/static.mk
 
 STATIC += check-mcs51 check-cortexm0 check-sources
 
-check-mcs51: $(sort $(BLANK_RELS) $(call blank_rels,$(BLANK_APP)))
+check-mcs51: $(sort $(BLANK_RELS) $(patsubst %.c,build/blank/mcs51/%.rel,$(BLANK_APPS)))
 	@python3 host_tests/check_contexts.py --sources firmware $(^:.rel=.asm)
 
 check-cortexm0: $(BLANK_OBJS)
