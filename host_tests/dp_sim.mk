@@ -41,3 +41,5 @@ UNIT_TESTS += test_dp_consistency
 test_dp_consistency_SRC = $(SIM_BUS) host_tests/dp_fixture.c host_tests/dp_station_any.c
 test_dp_consistency_CONFIG := host_tests/config/dp_any.h
 build/test/test_dp_consistency build/asan/test_dp_consistency: $(PREEMPT_OBJ)
+
+SCRIPT_TESTS += host_tests/segment_pty.py

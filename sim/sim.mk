@@ -8,3 +8,7 @@ SIM_SEGMENT = $(HAL_VIRTUAL) sim/segment.c sim/uart.c sim/telegram.c
 SIM_MASTER = sim/dp_master.c sim/dp_questions.c sim/initiator.c sim/telegram.c
 # A DP master with line faults on the segment.
 SIM_BUS = $(SIM_SEGMENT) sim/bus.c sim/faults.c sim/dp_master.c sim/dp_questions.c sim/initiator.c
+
+PROGRAMS += fieldling-segment
+fieldling-segment_SRC = sim/fieldling_segment.c sim/faults.c
+fieldling-segment_CFLAGS = -D_XOPEN_SOURCE=700
