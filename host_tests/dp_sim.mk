@@ -43,3 +43,14 @@ test_dp_consistency_CONFIG := host_tests/config/dp_any.h
 build/test/test_dp_consistency build/asan/test_dp_consistency: $(PREEMPT_OBJ)
 
 SCRIPT_TESTS += host_tests/segment_pty.py
+
+PROGRAMS += bench-dp-2 bench-dp-32
+BENCH_DP = host_tests/bench_dp.c $(DP_SRC) $(HAL_VIRTUAL) sim/dp_questions.c sim/telegram.c
+bench-dp-2_SRC  = $(BENCH_DP)
+bench-dp-32_SRC = $(BENCH_DP)
+bench-dp-32_CONFIG := host_tests/config/dp_any.h
+bench-dp-2_DEFAULTS  = $(DP_DEFAULTS)
+bench-dp-32_DEFAULTS = $(DP_DEFAULTS)
+BENCHES += bench-dp
+bench-dp: build/posix/bench-dp-2 build/posix/bench-dp-32
+	@sh host_tests/bench_dp.sh

@@ -53,8 +53,8 @@ extern bool hv_nv_broken;
 
 /* What the station did with the machine. */
 struct hv_seen {
-    uint16_t resets;      /* hal_reset() calls */
-    uint8_t reset_why;    /* of the last one */
+    uint16_t resets;   /* hal_reset() calls */
+    uint8_t reset_why; /* of the last one */
     uint32_t wdog_kicks;
     uint32_t idles;
     uint32_t nv_writes;
@@ -106,11 +106,11 @@ bool hv_driver(void);
 /* ---- how good the port is: defaults are an ideal one --------------------------------------------------- */
 
 struct hv_port {
-    const uint32_t *rates;   /* rates this board can, ends with 0; NULL: every rate with a whole bit time */
-    hv_time octet_latency;   /* from the end of the stop bit to line_octet_isr() */
-    hv_time send_latency;    /* from hal_send() to the start bit */
-    uint8_t fifo;            /* octets the receiver keeps while interrupts are masked; 1 at least */
-    bool untimed;            /* hal_line_open() answers HAL_LINE_UNTIMED */
+    const uint32_t *rates; /* rates this board can, ends with 0; NULL: every rate with a whole bit time */
+    hv_time octet_latency; /* from the end of the stop bit to line_octet_isr() */
+    hv_time send_latency;  /* from hal_send() to the start bit */
+    uint8_t fifo;          /* octets the receiver keeps while interrupts are masked; 1 at least */
+    bool untimed;          /* hal_line_open() answers HAL_LINE_UNTIMED */
 };
 extern struct hv_port hv_port;
 
