@@ -1,7 +1,7 @@
 # Unit tests of the DP stack, module by module, on a machine without time (fake_hal.c).
 
 FDL_UNIT_TESTS  := $(addprefix test_fdl_,services retry sap small) test_fma
-DDLM_UNIT_TESTS := $(addprefix test_ddlm_,prm cfg diag data)
+DDLM_UNIT_TESTS := $(addprefix test_ddlm_,prm cfg diag data addr wd states no_inputs no_outputs plain adapt)
 DP_UNIT_TESTS   := test_bytes test_phy_uart test_fdl_rx test_fdl_tx test_ddlm_identifiers $(FDL_UNIT_TESTS) \
     $(DDLM_UNIT_TESTS)
 UNIT_TESTS += $(DP_UNIT_TESTS)
@@ -20,6 +20,14 @@ $(foreach t,$(FDL_UNIT_TESTS),$(eval $(t)_SRC := $(UNIT_FDL) host_tests/fdl_unit
 $(foreach t,$(DDLM_UNIT_TESTS),$(eval $(t)_SRC := $(UNIT_DDLM) host_tests/ddlm_unit_app.c)\
     $(eval $(t)_DEFAULTS := firmware/fdl/fma_event_default.c))
 
+# The one that implements no callback: all of them come from the library.
+test_ddlm_plain_SRC      := $(UNIT_DDLM)
+test_ddlm_plain_DEFAULTS := firmware/fdl/fma_event_default.c $(wildcard firmware/ddlm/default_*.c)
+
 # Their devices; host_tests/config says what is special about each.
 test_fdl_small_CONFIG := host_tests/config/unit_small.h
+test_ddlm_plain_CONFIG := host_tests/config/unit_plain.h
+test_ddlm_no_inputs_CONFIG := host_tests/config/unit_no_inputs.h
+test_ddlm_no_outputs_CONFIG := host_tests/config/unit_no_outputs.h
+test_ddlm_adapt_CONFIG := host_tests/config/unit_adapt.h
 $(foreach t,$(DP_UNIT_TESTS),$(eval $(t)_CONFIG ?= host_tests/config/unit_dp.h))

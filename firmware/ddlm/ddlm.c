@@ -148,14 +148,20 @@ void ddlm_leave(void)
     ddlm_data_safe();
 }
 
-void ddlm_leave_master(void)
+/* Nobody's station: what Set_Prm and Chk_Cfg brought is gone. */
+static void forget_master(void)
 {
-    ddlm_leave();
     ddlm.master = DDLM_NO_MASTER;
     ddlm.groups = 0;
     ddlm.sync_enabled = false;
     ddlm.freeze_enabled = false;
     ddlm.cfg_ok = false;
+}
+
+void ddlm_leave_master(void)
+{
+    ddlm_leave();
+    forget_master();
     fdl_watch(FDL_ALL);
     ddlm_wd_off();
     ddlm_set_state(DDLM_WAIT_PRM);
@@ -174,14 +180,16 @@ uint8_t ddlm_slave_init(uint8_t switches, uint8_t baud)
     static const CODE struct ddlm_counters none;
     uint8_t status;
 
-    if (switches > FDL_UNADDRESSED || (baud != DDLM_BAUD_AUTO && baud >= PHY_BAUDS))
+    if (switches > FDL_UNADDRESSED || (baud != DDLM_BAUD_AUTO && baud >= PHY_BAUDS)) {
+        ddlm_fault_ind(DDLM_IV);
         return DDLM_IV;
+    }
     ddlm.by_switches = switches < FDL_UNADDRESSED;
     ddlm.address = ddlm.by_switches ? switches : ddlm_stored_address();
     ddlm.locked = !ddlm.by_switches && ddlm_stored_lock();
     ddlm.state = DDLM_POWER_ON;
-    ddlm.master = DDLM_NO_MASTER;
     ddlm.faults = 0;
+    forget_master();
     ddlm_counters = none;
     ddlm_check_fma(fma_reset(ddlm.address));
     fdl_set_ident(ident, fma_ident(ident));
