@@ -14,3 +14,17 @@ test_hdlc_bits_SRC = sim/hdlc_bits.c
 UNIT_TESTS += test_hdlc_nrm
 test_hdlc_nrm_SRC      = $(HDLC_SRC) $(HDLC_BUS)
 test_hdlc_nrm_DEFAULTS = $(HDLC_DEFAULTS)
+
+# Remote modules: the application, on a board of the test's.
+REMOTE_MODULE = $(addprefix boards/common/remote_,module.c document.c log.c check.c) firmware/crc16.c
+REMOTE_TEST   = $(REMOTE_MODULE) $(HDLC_SRC) $(HDLC_BUS) host_tests/remote_board_fake.c
+
+UNIT_TESTS += test_remote_module
+test_remote_module_SRC      = $(REMOTE_TEST)
+test_remote_module_DEFAULTS = $(HDLC_DEFAULTS)
+
+# Host programs: a remote module; the master station.
+PROGRAMS += fieldling-hdlc
+fieldling-hdlc_SRC      = boards/posix/fieldling_hdlc.c boards/posix/hdlc_line.c boards/posix/rm_host_board.c \
+                          sim/hdlc_words.c $(REMOTE_MODULE) $(HDLC_SRC) $(HDLC_CHIP) $(HOST_STATION)
+fieldling-hdlc_DEFAULTS = $(HDLC_DEFAULTS)

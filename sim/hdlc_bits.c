@@ -83,12 +83,11 @@ static enum hb_event close_frame(struct hb_decoder *d)
 
 static enum hb_event one(struct hb_decoder *d)
 {
-    const bool was_in_frame = d->in_frame;
-    if (d->ones >= 7u) {
-        d->in_frame = false;
-        return d->ones == 7u && was_in_frame ? HB_ABORT : d->ones == 15u ? HB_IDLE : HB_NOTHING;
-    }
-    return HB_NOTHING;
+    const bool inside = d->in_frame && d->bits > 5u; /* more than these ones since the flag */
+    if (d->ones < 7u)
+        return HB_NOTHING;
+    d->in_frame = false;
+    return d->ones == 7u && inside ? HB_ABORT : d->ones == 15u ? HB_IDLE : HB_NOTHING;
 }
 
 enum hb_event hb_decode(struct hb_decoder *d, unsigned bit)
