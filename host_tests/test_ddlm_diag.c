@@ -77,9 +77,13 @@ static void slave_diag_with_data_is_refused_rr(void)
 
 /* ---- parameters acknowledged and not looked at yet ---- */
 
-static void while_parameters_wait_the_station_is_not_ready_and_asks_for_nothing(void)
+static void while_parameters_or_configuration_wait_the_station_is_not_ready_and_asks_for_nothing(void)
 {
     request("68 0C 0C 68 88 82 6D 3D 3E 80 00 00 0B 12 34 00 C3 16");
+    request(READ);
+    ANSWERED("68 0B 0B 68 82 88 08 3E 3C 02 04 00 FF 12 34 D7 16");
+    turn();
+    request("68 09 09 68 88 82 6D 3E 3E 10 20 10 20 53 16");
     request(READ);
     ANSWERED("68 0B 0B 68 82 88 08 3E 3C 02 04 00 FF 12 34 D7 16");
     turn();
@@ -265,7 +269,7 @@ int main(void)
     RUN_TEST(the_watchdog_shows);
     RUN_TEST(sync_and_freeze_mode_show_while_they_last);
     RUN_TEST(slave_diag_with_data_is_refused_rr);
-    RUN_TEST(while_parameters_wait_the_station_is_not_ready_and_asks_for_nothing);
+    RUN_TEST(while_parameters_or_configuration_wait_the_station_is_not_ready_and_asks_for_nothing);
     RUN_TEST(what_waits_during_data_exchange_leaves_the_diagnosis_alone);
     RUN_TEST(device_identifier_and_channel_blocks_follow_the_six_octets);
     RUN_TEST(blocks_may_be_a_status_and_no_fault);

@@ -217,6 +217,19 @@ static void on_an_untimed_line_a_request_may_follow_the_answer_at_once(void)
     TEST_ASSERT_EQUAL(1, seen.chunks);
 }
 
+/* our choice in phy_uart.c: octets come in lumps there. */
+static void on_an_untimed_line_5_ms_of_silence_end_a_telegram(void)
+{
+    fake.line = HAL_LINE_UNTIMED;
+    phy_set_value(PHY_BAUD_RATE, PHY_BAUD_19K2);
+    TEST_ASSERT_EQUAL(96, fake.limit);
+    phy_set_value(PHY_BAUD_RATE, PHY_BAUD_12M);
+    TEST_ASSERT_EQUAL(60000, fake.limit);
+    fake.line = HAL_LINE_TIMED;
+    phy_set_value(PHY_BAUD_RATE, PHY_BAUD_12M);
+    TEST_ASSERT_EQUAL(33, fake.limit);
+}
+
 static void nothing_is_heard_while_the_answer_is_being_sent(void)
 {
     fake_silence();
@@ -418,6 +431,7 @@ int main(void)
     RUN_TEST(a_faulty_octet_cancels_the_answer_too);
     RUN_TEST(after_an_answer_a_request_needs_t_syn_of_silence_again);
     RUN_TEST(on_an_untimed_line_a_request_may_follow_the_answer_at_once);
+    RUN_TEST(on_an_untimed_line_5_ms_of_silence_end_a_telegram);
     RUN_TEST(nothing_is_heard_while_the_answer_is_being_sent);
     RUN_TEST(a_disabled_transmitter_sends_nothing);
     RUN_TEST(a_transmitter_disabled_while_an_answer_waits_sends_nothing_either);
