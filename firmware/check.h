@@ -10,8 +10,8 @@
  *   IDATA    internal RAM, indirect
  *   CODE     program memory: constant tables and strings
  *   IN_ISR   ends the declaration AND the definition of every function whose name ends in _isr
- *   REENTRANT  locals on the stack: for a small function that main and interrupts both call, and for a
- *            function reached through a pointer with two or more arguments
+ *   REENTRANT  locals on the stack: for a function reached through a pointer with two or more arguments. Not for
+ *            a function that main and interrupts both call: its registers would still be main's
  */
 #ifndef FIELDLING_CHECK_H
 #define FIELDLING_CHECK_H

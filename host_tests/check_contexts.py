@@ -7,14 +7,17 @@ On the 8051 the locals of a function are static memory. A function that the main
 calls it is corrupted, and no tool says so. The names carry the context (house rule: interrupt code ends in
 _isr), so the rules can be checked call by call, on what the compiler made of the source:
 
-  1  interrupt code (*_isr) calls interrupt code, the services in ALLOWED, and REENTRANT functions; nothing else;
+  1  interrupt code (*_isr) calls interrupt code, the services in ALLOWED, and bare functions; nothing else. A bare
+     function calls nothing and uses no register and no memory of its own: it only sets variables to constants;
   2  interrupt code calls none of SDCC's helpers (__mulint, __divuint, __gptrget ...): some are not reentrant, and
      all cost more than an octet interrupt has;
   3  other code calls interrupt code only while interrupts are masked: on every path through the function there
      are more hal_irq_save() than hal_irq_restore() calls before it; a function returns with as many as it took;
   4  a function called through a pointer is interrupt code if and only if its caller is;
   5  no variable of interrupt code is overlaid with another function's (area OSEG);
-  6  where the files are a whole image, every interrupt function has its vector: SDCC leaves it out, without a word,
+  6  interrupt code does not select register bank 0 for anybody: that is the main loop's, and SDCC selects it for a
+     function without IN_ISR, REENTRANT or not;
+  7  where the files are a whole image, every interrupt function has its vector: SDCC leaves it out, without a word,
      when the function's prototype is not visible in the file that holds main().
 
 By 1, 3 and 4 the functions reachable from interrupts and those reachable from unmasked main code are disjoint.
@@ -75,7 +78,7 @@ def parse(path):
                 current.code.append((op, operands))
             else:
                 in_tables |= {n[1:] for n in re.findall(r"\b_\w+", operands)}
-        elif current and not op.startswith(".") and "=" not in op:
+        elif current and not op.startswith(".") and not operands.startswith("="):
             current.code.append((op, operands))
             if op == "mov" and "#" in operands:  # the address of a function passed or stored by code
                 in_code |= {n[1:] for n in re.findall(r"#\(?(_\w+)", operands)}
@@ -139,59 +142,74 @@ def lock_depths(function):
     return depths
 
 
-def check(path, reentrant):
-    functions, handlers, overlaid = parse(path)
-    problems = []
+def is_bare(function):
+    """Safe in any context: variables set to constants, and return."""
+    for op, operands in function.code:
+        if op not in ("ret", "clr", "setb", "mov") or f"_{function.name}_" in operands:
+            return False
+        if re.search(r"@|\b(a|b|c|ab|acc|psw|sp|dptr|dpl|dph|a?r[0-7])\b", operands):
+            return False
+        if op == "mov" and ",#" not in operands.replace(" ", ""):
+            return False
+    return bool(function.code)
 
-    def problem(function, text):
-        problems.append(f"{path}: {function}: {text}")
 
+def check_calls(function, handlers, bare):
+    """Rules 1 to 4 for one function."""
+    inside = is_interrupt(function.name)
+    depths = lock_depths(function)
+    for index, callee in calls(function):
+        if callee is None:
+            wrong = sorted(h for h in handlers if is_interrupt(h) != inside)
+            if wrong:
+                yield f"calls through a pointer, which may be {', '.join(wrong)}"
+            elif inside and not handlers:
+                yield "calls through a pointer that is filled in another file"
+        elif callee in ANYWHERE or callee in bare:
+            continue
+        elif inside and callee.startswith("_"):
+            yield f"calls SDCC's helper {callee}"
+        elif inside and not is_interrupt(callee):
+            yield f"calls {callee}, which is not interrupt code"
+        elif not inside and is_interrupt(callee) and 0 in depths.get(index, {0}):
+            yield f"calls {callee} with interrupts on"
+
+
+def check_returns(function):
+    """A function gives back as many locks as it took."""
+    if LOCK not in {callee for _, callee in calls(function)} or function.name in (LOCK, UNLOCK):
+        return
+    depths = lock_depths(function)
+    for index, (op, operands) in enumerate(function.code):
+        leaves = op in ("ret", "reti") or (op in ("ljmp", "ajmp") and operands.startswith("_"))
+        given_back = 1 if operands == "_" + UNLOCK else 0
+        if leaves and max(depths.get(index, {0})) - given_back > 0:
+            yield "returns with interrupts masked"
+
+
+def check_bank(function, bare):
+    """Rule 6."""
+    made = dict(calls(function))
+    for index, (op, operands) in enumerate(function.code):
+        if op == "mov" and operands.replace(" ", "") == "psw,#0x00" and is_interrupt(function.name):
+            callee = made.get(index + 1)
+            if callee not in ANYWHERE and callee not in bare:
+                yield f"selects the main loop's registers for {callee}"
+
+
+def check(path, parsed, bare):
+    functions, handlers, overlaid = parsed
     for function in functions:
-        name, inside = function.name, is_interrupt(function.name)
-        depths = None
-        for index, callee in calls(function):
-            if callee is None:
-                wrong = sorted(h for h in handlers if is_interrupt(h) != inside)
-                if wrong:
-                    problem(name, f"calls through a pointer, which may be {', '.join(wrong)}")
-                elif inside and not handlers:
-                    problem(name, "calls through a pointer that is filled in another file")
-            elif callee in ANYWHERE or callee in reentrant:
-                continue
-            elif inside or name in reentrant:
-                if callee.startswith("_"):
-                    problem(name, f"calls SDCC's helper {callee}")
-                elif not is_interrupt(callee) or name in reentrant:
-                    problem(name, f"calls {callee}, which is not interrupt code")
-            elif is_interrupt(callee):
-                depths = depths or lock_depths(function)
-                if 0 in depths.get(index, {0}):
-                    problem(name, f"calls {callee} with interrupts on")
-        if LOCK in {c for _, c in calls(function)} and name not in (LOCK, UNLOCK):
-            if inside:
-                problem(name, "masks interrupts in interrupt code")
-            depths = depths or lock_depths(function)
-            for index, (op, operands) in enumerate(function.code):
-                leaves = op in ("ret", "reti") or (op in ("ljmp", "ajmp") and operands.startswith("_"))
-                restores = operands == "_" + UNLOCK
-                if leaves and max(depths.get(index, {0})) - (1 if restores else 0) > 0:
-                    problem(name, "returns with interrupts masked")
+        for problems in (check_calls(function, handlers, bare), check_returns(function), check_bank(function, bare)):
+            for problem in problems:
+                yield f"{path}: {function.name}: {problem}"
     for variable in overlaid:
         if any(is_interrupt(f.name) and variable.startswith(f.name + "_") for f in functions):
-            problem(variable, "a variable of interrupt code is overlaid with others (compile with --nooverlay)")
-    return problems, len(functions)
-
-
-def reentrant_functions(folders):
-    found = set()
-    for folder in folders:
-        for path in Path(folder).rglob("*.[ch]"):
-            found |= set(re.findall(r"\b(\w+)\s*\([^;{}()]*\)\s*REENTRANT\b", path.read_text()))
-    return found
+            yield f"{path}: {variable}: a variable of interrupt code is overlaid with others (compile with --nooverlay)"
 
 
 def vectorless(folders, paths):
-    """Interrupt functions of these files that the vector table of one of them does not name (rule 6)."""
+    """Interrupt functions of these files that the vector table of one of them does not name (rule 7)."""
     texts = [Path(path).read_text(errors="replace") for path in paths]
     tables = [text for text in texts if "__interrupt_vect:" in text]
     if not tables:
@@ -209,13 +227,11 @@ def main(arguments):
     while arguments and arguments[0] == "--sources":
         folders.append(arguments[1])
         arguments = arguments[2:]
-    reentrant = reentrant_functions(folders)
-    problems, count = [], 0
-    for path in arguments:
-        found, functions = check(path, reentrant)
-        problems += found
-        count += functions
+    parsed = {path: parse(path) for path in arguments}
+    bare = {f.name for functions, _, _ in parsed.values() for f in functions if is_bare(f)}
+    problems = [problem for path in arguments for problem in check(path, parsed[path], bare)]
     problems += vectorless(folders, arguments)
+    count = sum(len(functions) for functions, _, _ in parsed.values())
     print("\n".join(problems) if problems else f"contexts: {count} functions in {len(arguments)} files keep apart")
     if not arguments or not count:
         print("contexts: nothing to check")

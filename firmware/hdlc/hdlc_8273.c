@@ -56,7 +56,7 @@ static uint16_t sending_since;
 static uint8_t mode, address_1, address_2;
 static volatile bool dead; /* the chip did not get ready in HDLC_8273_POLLS reads */
 
-static bool by_dma(void) REENTRANT
+static inline bool by_dma(void)
 {
     return (mode & HDLC_8273_DMA) != 0;
 }

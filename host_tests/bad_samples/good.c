@@ -4,7 +4,7 @@
 typedef uint8_t (*handler)(uint8_t octet) IN_ISR;
 
 void octet_isr(uint8_t octet) IN_ISR;
-uint8_t smaller(uint8_t a, uint8_t b) REENTRANT;
+void forget(void);
 void main_loop(uint8_t n);
 extern HOT uint8_t state;
 
@@ -20,14 +20,15 @@ static uint8_t body_isr(uint8_t octet) IN_ISR
 
 static const CODE handler states[2] = {wait_isr, body_isr};
 
-uint8_t smaller(uint8_t a, uint8_t b) REENTRANT
+void forget(void)
 {
-    return a < b ? a : b;
+    state = 0; /* bare: may be called from anywhere */
 }
 
 void octet_isr(uint8_t octet) IN_ISR
 {
-    state = states[state & 1u](smaller(octet, 100u));
+    state = states[state & 1u](octet);
+    forget();
     hal_silence(33u);
 }
 
@@ -44,7 +45,7 @@ void main_loop(uint8_t n)
         break;
     case 2:
         hal_irq_restore(irq);
-        state = smaller(n, 7);
+        forget();
         return;
     case 3:
         state = 9;
