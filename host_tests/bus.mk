@@ -26,3 +26,9 @@ fieldling-mon_LDLIBS = -lm
 
 SCRIPT_TESTS += host_tests/mon_views.py host_tests/wireshark.py
 SCRIPT_TESTS_ONCE += host_tests/sigrok.py
+
+# ---- master for people ----------------------------------------------------------------------------------------
+
+PROGRAMS += fieldling-master
+fieldling-master_SRC = $(addprefix sim/,fieldling_master.c master_ask.c master_cyclic.c master_line.c master_say.c \
+                                        master_setup.c gsd_read.c port.c) $(SIM_MASTER)

@@ -17,6 +17,7 @@ void dpm_begin(struct dp_master *m)
     m->at = 0;
     m->gap = m->gap_from;
     m->cycles = 0;
+    m->cycle_start = m->cycle_time = 0;
     m->job = 0;
     memset(m->live, 0, sizeof m->live);
     for (unsigned i = 0; i < m->slaves_n; i++) {
@@ -32,11 +33,19 @@ void dpm_hear(struct dp_master *m, uint64_t now, uint8_t octet, uint8_t err)
     ini_hear(&m->ini, now, octet, err);
 }
 
+/* Waiting for the time of the next cycle, if a shortest one is asked for. */
+static bool between_cycles(const struct dp_master *m)
+{
+    return m->shortest_cycle && m->cycles && m->at == 0 && m->part == 0;
+}
+
 uint64_t dpm_due(const struct dp_master *m)
 {
     if (m->doing != DP_NOTHING)
         return ini_due(&m->ini);
-    return m->has_token ? 0 : INI_NEVER;
+    if (!m->has_token)
+        return INI_NEVER;
+    return between_cycles(m) ? m->cycle_start + m->shortest_cycle : 0;
 }
 
 void dpm_ask(struct dp_master *m, struct dp_job *job)
@@ -212,6 +221,12 @@ void dpm_poll(struct dp_master *m, uint64_t now)
         settle(m, e == INI_DONE);
     }
     for (unsigned i = 0; i < 4 && m->doing == DP_NOTHING && m->has_token; i++) {
+        if (between_cycles(m) && now < m->cycle_start + m->shortest_cycle)
+            return;
+        if (m->at == 0 && m->part == 0) {
+            m->cycle_time = now - m->cycle_start;
+            m->cycle_start = now;
+        }
         if (m->at < m->slaves_n) {
             m->doing = DP_SLAVE;
             ask_slave(m, now, &m->slaves[m->at++]);

@@ -42,6 +42,7 @@ struct dp_master {
     struct ini ini;
     struct dp_slave *slaves;
     unsigned slaves_n;
+    uint64_t shortest_cycle;  /* [ticks] from the start of a cycle to the next; 0: at once */
     bool token_to_itself;     /* a token telegram each cycle, as a lone master does */
     uint8_t gap_from, gap_to; /* FDL status poll of one address a cycle; gap_to == 0: none */
     struct dp_master *ring;   /* who gets the token next; 0: nobody else */
@@ -53,6 +54,7 @@ struct dp_master {
     enum { DP_NOTHING, DP_SLAVE, DP_JOB, DP_GAP, DP_TOKEN } doing;
     unsigned at;   /* slave of this cycle; slaves_n: job, gap, token */
     unsigned part; /* of the cycle's end */
+    uint64_t cycle_start, cycle_time /* of the last one */;
     uint8_t gap;
     uint8_t live[127]; /* live list: 1 + station type of those that answered */
     unsigned cycles;

@@ -104,7 +104,7 @@ static void listen_to(const char *path)
         unusable(path, why);
     struct pollfd p = {fd, POLLIN, 0};
     if (!mon.gap)
-        mon.gap = 5000000;
+        mon.gap = MON_LUMPS;
     while (!stopped) {
         const int ready = poll(&p, 1, 20);
         const ssize_t n = ready > 0 ? read(fd, octets, sizeof octets) : 0;

@@ -66,6 +66,10 @@ void ini_sends_until(struct ini *i, uint64_t end)
 void ini_hear(struct ini *i, uint64_t now, uint8_t octet, uint8_t err)
 {
     ini_activity(i, now);
+    if (i->state == SENDING && i->untimed && i->wants_answer) {
+        i->state = WAIT_ANSWER;
+        i->sent_end = now;
+    }
     if (i->state != WAIT_ANSWER && i->state != HEARING)
         return;
     if (i->state == WAIT_ANSWER) {

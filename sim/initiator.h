@@ -21,6 +21,7 @@ struct ini {
     uint64_t slot; /* [ticks] how long an answer may take to begin */
     uint64_t gap;  /* [ticks] idle that ends a telegram: 33 T_bit on a wire, milliseconds on a pty */
     unsigned retries;
+    bool untimed;  /* a pty: the answer may come before the request's time on a wire is over */
     void (*send)(void *of, const uint8_t *octets, unsigned n); /* put on the line now */
     void *of;
     /* results */

@@ -17,6 +17,7 @@ enum mon_protocol { MON_DP, MON_PA, MON_MODBUS_RTU, MON_MODBUS_ASCII, MON_HDLC }
 /* Errors of an octet, as a receiver reports them; in a record "10!" is a parity error, "10?" a framing error. */
 enum { MON_PARITY = 1, MON_FRAMING = 2 };
 
+#define MON_LUMPS     5000000u /* [ns] silence that ends a burst where octets come in lumps: a pty, a USB adapter */
 #define MON_FRAME_MAX 600u /* octets; Modbus ASCII has the longest, 513 */
 
 struct mon_octet {
@@ -47,7 +48,8 @@ struct mon_frame {
 struct mon_settings {
     enum mon_protocol protocol;
     uint32_t rate;  /* bit/s */
-    uint64_t gap;   /* [ns] silence that ends a burst; 0: 33 T_bit (DP), 3.5 characters (Modbus RTU) */
+    uint64_t gap;   /* [ns] silence that ends a burst, of a line without exact times; 0: 33 T_bit (DP), 3.5 characters
+                     * (Modbus RTU), and times are exact */
 };
 extern struct mon_settings mon;
 
@@ -105,7 +107,8 @@ bool mon_pcapng_close(void);
 
 /* ---- records: text files of octets with times (mon_record.c) ------------------------------------------- */
 
-/* Read a record: "# rate 500000" sets mon.rate unless `rate_fixed`; then lines "SECONDS HEX HEX ...", the time of the
+/* Read a record: "# rate 500000" sets mon.rate unless `rate_fixed`; "# untimed" says that the times are a computer's and
+ * not the line's; then lines "SECONDS HEX HEX ...", the time of the
  * first start bit; the octets of a line follow each other without a gap. '#' starts a comment.
  * -> 0, or the number of a line that is none of these. */
 unsigned mon_record_read(FILE *from, bool rate_fixed, mon_sink *sink);

@@ -56,6 +56,8 @@ unsigned mon_record_read(FILE *from, bool rate_fixed, mon_sink *sink)
         number++;
         if (!rate_fixed && sscanf(line, "# rate %u", &rate) == 1 && rate)
             mon.rate = rate;
+        if (strncmp(line, "# untimed", 9) == 0 && !mon.gap)
+            mon.gap = MON_LUMPS;
         line[strcspn(line, "#\n")] = '\0';
         good = line[strspn(line, " \t\r")] == '\0' || read_line(line, sink);
     }

@@ -39,7 +39,7 @@ static void request(const struct mon_frame *f)
     if (waiting_for >= 0)
         stations[waiting_for].unanswered++;
     waiting_for = tg_wants_answer(&f->tg) ? (int)to : -1;
-    if (f->seq && mon_tbit(f->idle) < 33 - 0.5)
+    if (f->seq && !mon.gap && mon_tbit(f->idle) < 33 - 0.5)
         no_syn++;
     stations[to].requests++;
     stations[to].retries += f->retry;
@@ -105,9 +105,13 @@ void mon_stats_print(FILE *to)
     const double bit = 1e9 / mon.rate;
     if (waiting_for >= 0)
         stations[waiting_for].unanswered++, waiting_for = -1;
-    fprintf(to, "%lu telegrams in %.6f s at %u bit/s, line busy %.1f %%; %lu wrong, %lu tokens, %lu requests without T_SYN\n",
-            telegrams, (double)(last - first) / 1e9, mon.rate, last > first ? 100.0 * (double)busy / (double)(last - first) : 0,
-            wrong, tokens, no_syn);
+    const double seconds = (double)(last - first) / 1e9;
+    fprintf(to, "%lu telegrams in %.6f s at %u bit/s", telegrams, seconds, mon.rate);
+    if (mon.gap)
+        fprintf(to, " (times are a computer's)");
+    else
+        fprintf(to, ", line busy %.1f %%, %lu requests without T_SYN", seconds > 0 ? (double)busy / seconds / 1e7 : 0, no_syn);
+    fprintf(to, "; %lu wrong, %lu tokens\n", wrong, tokens);
     if (mon.protocol != MON_DP)
         return;
     fprintf(to, "station requests answers   E5 refused retries no-answer  T_SDR min/median/max [T_bit]  "
