@@ -36,7 +36,7 @@ void phy_event_ind(uint8_t variable, uint8_t value)
 
 static void begin(uint8_t line)
 {
-    static const CODE struct fdl_counters none;
+    static const CODE struct fdl_counters none = {0};
 
     fake_begin();
     fake.line = line;

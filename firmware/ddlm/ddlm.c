@@ -177,7 +177,7 @@ void ddlm_set_min_tsdr(uint8_t tbit)
 uint8_t ddlm_slave_init(uint8_t switches, uint8_t baud)
 {
     static uint8_t XDATA ident[64];
-    static const CODE struct ddlm_counters none;
+    static const CODE struct ddlm_counters none = {0}; /* "= {0}": SDCC leaves it to the EPROM otherwise */
     uint8_t status;
 
     if (switches > FDL_UNADDRESSED || (baud != DDLM_BAUD_AUTO && baud >= PHY_BAUDS)) {

@@ -403,7 +403,7 @@ void fdl_set_address(uint8_t ts)
 
 void fdl_reset(uint8_t ts)
 {
-    static const CODE struct fdl_counters none;
+    static const CODE struct fdl_counters none = {0}; /* "= {0}": SDCC leaves it to the EPROM otherwise */
     uint8_t irq = hal_irq_save();
     uint8_t i;
 
