@@ -169,6 +169,7 @@ help:
 	@echo "make                     every host program into build/posix/ (needs gcc, nothing else)"
 	@echo "make setup               install what tests and demos need; says what it does, quick when all is there"
 	@echo "make run PROTOCOL=dp     live demonstration: a station and a master on a simulated bus (dp, modbus)"
+	@echo "make run STATIONS=8      so many stations and one master on a segment of pseudo terminals (1 to 14)"
 	@echo "make check               unit tests, 8051 and Cortex-M compile, static checks: under a minute"
 	@echo "make asan                the unit tests again, by clang with AddressSanitizer and UBSan"
 	@echo "make test                everything: all boards, sanitizers, foreign masters; ends in N passed, N failed"

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 static const char help[] =
@@ -103,8 +104,7 @@ static void listen_to(const char *path)
     if (fd < 0)
         unusable(path, why);
     struct pollfd p = {fd, POLLIN, 0};
-    if (!mon.gap)
-        mon.gap = MON_LUMPS;
+    mon.gap = mon.gap ? mon.gap : MON_LUMPS;
     while (!stopped) {
         const int ready = poll(&p, 1, 20);
         const ssize_t n = ready > 0 ? read(fd, octets, sizeof octets) : 0;
@@ -228,7 +228,9 @@ static void read_options(int argc, char **argv)
 static bool is_line(const char *path)
 {
     struct stat s;
-    return stat(path, &s) == 0 && S_ISCHR(s.st_mode);
+    const bool line = stat(path, &s) == 0 && S_ISCHR(s.st_mode);
+    mon.untimed = line && major(s.st_rdev) >= 136 && major(s.st_rdev) <= 143; /* Unix98 ptys */
+    return line;
 }
 
 static void at_the_end(void)

@@ -48,13 +48,13 @@ struct mon_frame {
 struct mon_settings {
     enum mon_protocol protocol;
     uint32_t rate;  /* bit/s */
-    uint64_t gap;   /* [ns] silence that ends a burst, of a line without exact times; 0: 33 T_bit (DP), 3.5 characters
-                     * (Modbus RTU), and times are exact */
+    uint64_t gap;   /* [ns] silence that ends a burst; 0: 33 T_bit (DP), 3.5 characters (Modbus RTU) */
+    bool untimed;   /* a pty: octets take no time, times are those of a computer */
 };
 extern struct mon_settings mon;
 
 double mon_tbit(uint64_t ns);  /* ns -> bit times */
-uint64_t mon_char(void);       /* [ns] one character of the protocol */
+uint64_t mon_char(void);       /* [ns] one character of the protocol; 0 when untimed */
 double mon_us(uint64_t ns);
 
 /* ---- octets -> frames (mon_split.c) ------------------------------------------------------------------- */

@@ -56,8 +56,10 @@ unsigned mon_record_read(FILE *from, bool rate_fixed, mon_sink *sink)
         number++;
         if (!rate_fixed && sscanf(line, "# rate %u", &rate) == 1 && rate)
             mon.rate = rate;
-        if (strncmp(line, "# untimed", 9) == 0 && !mon.gap)
-            mon.gap = MON_LUMPS;
+        if (strncmp(line, "# untimed", 9) == 0) {
+            mon.untimed = true;
+            mon.gap = mon.gap ? mon.gap : MON_LUMPS;
+        }
         line[strcspn(line, "#\n")] = '\0';
         good = line[strspn(line, " \t\r")] == '\0' || read_line(line, sink);
     }
@@ -68,7 +70,7 @@ unsigned mon_record_read(FILE *from, bool rate_fixed, mon_sink *sink)
 
 void mon_record_head(FILE *to)
 {
-    fprintf(to, "# rate %u\n", mon.rate);
+    fprintf(to, "%s# rate %u\n", mon.untimed ? "# untimed\n" : "", mon.rate);
 }
 
 void mon_record_frame(FILE *to, const struct mon_frame *f)

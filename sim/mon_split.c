@@ -5,7 +5,7 @@
 
 #define BURST 2048u
 
-struct mon_settings mon = {MON_DP, 500000, 0};
+struct mon_settings mon = {MON_DP, 500000, 0, false};
 
 static struct mon_octet burst[BURST];
 static unsigned burst_n;
@@ -27,6 +27,8 @@ static unsigned char_bits(void)
 
 uint64_t mon_char(void)
 {
+    if (mon.untimed)
+        return 0;
     return (char_bits() * 1000000000ULL + mon.rate / 2) / mon.rate;
 }
 

@@ -39,7 +39,7 @@ static void request(const struct mon_frame *f)
     if (waiting_for >= 0)
         stations[waiting_for].unanswered++;
     waiting_for = tg_wants_answer(&f->tg) ? (int)to : -1;
-    if (f->seq && !mon.gap && mon_tbit(f->idle) < 33 - 0.5)
+    if (f->seq && !mon.untimed && mon_tbit(f->idle) < 33 - 0.5)
         no_syn++;
     stations[to].requests++;
     stations[to].retries += f->retry;
@@ -107,7 +107,7 @@ void mon_stats_print(FILE *to)
         stations[waiting_for].unanswered++, waiting_for = -1;
     const double seconds = (double)(last - first) / 1e9;
     fprintf(to, "%lu telegrams in %.6f s at %u bit/s", telegrams, seconds, mon.rate);
-    if (mon.gap)
+    if (mon.untimed)
         fprintf(to, " (times are a computer's)");
     else
         fprintf(to, ", line busy %.1f %%, %lu requests without T_SYN", seconds > 0 ? (double)busy / seconds / 1e7 : 0, no_syn);

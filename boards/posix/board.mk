@@ -16,4 +16,4 @@ fieldling-demo_DEFAULTS = $(DP_DEFAULTS)
 
 .PHONY: run-dp
 run-dp: build/posix/fieldling-demo
-	@build/posix/fieldling-demo
+	@$(if $(STATIONS),sh sim/run_stations.sh $(STATIONS),build/posix/fieldling-demo)
