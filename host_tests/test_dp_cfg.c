@@ -46,6 +46,12 @@ static void T40_a_module_too_many_is_refused(void)
     REFUSED("68 0A 0A 68 88 82 6D 3E 3E 10 20 10 20 00 53 16"); /* an empty slot counts */
 }
 
+static void T41_an_empty_slot_or_an_input_in_place_of_an_output_is_refused(void)
+{
+    REFUSED("68 09 09 68 88 82 6D 3E 3E 00 20 10 20 43 16");
+    REFUSED("68 09 09 68 88 82 6D 3E 3E 10 20 10 10 43 16");
+}
+
 static void T41_modules_in_another_order_are_refused(void)
 {
     REFUSED("68 09 09 68 88 82 6D 3E 3E 10 10 20 20 53 16"); /* the same lengths */
@@ -191,6 +197,7 @@ int main(void)
     RUN_TEST(T38_the_real_configuration_leads_to_DATA_EXCH);
     RUN_TEST(T39_a_missing_module_is_refused);
     RUN_TEST(T40_a_module_too_many_is_refused);
+    RUN_TEST(T41_an_empty_slot_or_an_input_in_place_of_an_output_is_refused);
     RUN_TEST(T41_modules_in_another_order_are_refused);
     RUN_TEST(T41_another_consistency_or_length_is_refused);
     RUN_TEST(T42_special_formats_are_read);

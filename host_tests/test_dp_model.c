@@ -240,7 +240,7 @@ static void random_request(struct tg *t)
         random_set_prm(t);
     } else if (t->dsap == 62) {
         memcpy(t->data, "\x10\x20\x10\x20", 4);
-        t->data[below(4)] ^= (uint8_t)(below(12) == 0);
+        t->data[below(4)] ^= below(12) ? 0 : (uint8_t)(1u << below(8));
         t->n = (uint8_t)(below(16) ? 4 : below(7));
     } else if (t->dsap == 58) {
         t->fc = TG_REQUEST | TG_SDN_H;
@@ -310,7 +310,7 @@ static void ask_and_compare(const struct tg *t, unsigned step)
         const unsigned len2 = tg_encode(&again, request);
         const int function2 = expected(&again, data, &n);
         const unsigned wanted2 = answer_of(&again, function2, data, n, wanted);
-        for (unsigned i = 0; i < 2; i++, repeats++) {
+        for (unsigned i = 0; i < 3; i++, repeats++) {
             TEST_ASSERT_EQUAL_UINT_MESSAGE(wanted2, dp_ask_octets(request, len2, __LINE__), where);
             TEST_ASSERT_EQUAL_HEX8_ARRAY_MESSAGE(wanted, seg_said.octets, wanted2, where);
             dp_in[0] = model.in[0] = (uint8_t)(model.in[0] + 1); /* does not show in a repeated answer */
