@@ -12,13 +12,10 @@
 #define ALL256(f)   ROW64(f, 0), ROW64(f, 64), ROW64(f, 128), ROW64(f, 192)
 
 #define ENTRY(i)                                                                                             \
-    (BIT(i, 0, 0xC0C1) ^ BIT(i, 1, 0xC181) ^ BIT(i, 2, 0xC301) ^ BIT(i, 3, 0xC601) ^ BIT(i, 4, 0xCC01) ^     \
-     BIT(i, 5, 0xD801) ^ BIT(i, 6, 0xF001) ^ BIT(i, 7, 0xA001))
-#define LO(i) (uint8_t)(ENTRY(i) & 0xFF)
-#define HI(i) (uint8_t)(ENTRY(i) >> 8)
+    (uint16_t)(BIT(i, 0, 0xC0C1) ^ BIT(i, 1, 0xC181) ^ BIT(i, 2, 0xC301) ^ BIT(i, 3, 0xC601) ^               \
+               BIT(i, 4, 0xCC01) ^ BIT(i, 5, 0xD801) ^ BIT(i, 6, 0xF001) ^ BIT(i, 7, 0xA001))
 
-const uint8_t CODE crc16_lo[256] = {ALL256(LO)};
-const uint8_t CODE crc16_hi[256] = {ALL256(HI)};
+const uint16_t CODE crc16_octet[256] = {ALL256(ENTRY)};
 
 #else
 

@@ -17,13 +17,12 @@
 
 #if CRC16_ENTRIES == 256
 
-extern const uint8_t CODE crc16_lo[256], crc16_hi[256];
+extern const uint16_t CODE crc16_octet[256];
 
 /* The CRC after one more octet. Any context. */
 static inline uint16_t crc16_add(uint16_t crc, uint8_t octet)
 {
-    octet ^= (uint8_t)crc;
-    return (uint16_t)((uint16_t)(crc16_hi[octet] << 8) | (uint8_t)((uint8_t)(crc >> 8) ^ crc16_lo[octet]));
+    return (uint16_t)((crc >> 8) ^ crc16_octet[(uint8_t)(crc ^ octet)]);
 }
 
 #elif CRC16_ENTRIES == 16

@@ -3,7 +3,7 @@
 MB_STATION  = firmware/crc16.c $(wildcard firmware/modbus/mb_*.c)
 MB_DEFAULTS = $(wildcard firmware/modbus/default_*.c)
 
-MB_UNIT_TESTS = test_modbus_functions test_modbus_line
+MB_UNIT_TESTS = test_modbus_functions test_modbus_line test_modbus_noise
 define mb_unit_test
 UNIT_TESTS += $1
 $1_SRC      = host_tests/modbus_fixture.c sim/modbus_client.c sim/modbus_frame.c $$(HAL_VIRTUAL) $$(MB_STATION)
@@ -18,3 +18,19 @@ fieldling-modbus_SRC      = boards/posix/fieldling_modbus.c boards/posix/mb_imag
                             sim/modbus_frame.c $(HOST_STATION) $(MB_STATION)
 fieldling-modbus_DEFAULTS = $(MB_DEFAULTS)
 fieldling-modbus_CFLAGS   = -DMB_CONFIG='"inverter_mb.h"' -Iboards/common -Iboards/posix
+
+# Figures beside the peers': as tests with limits, and as a table in `make bench`.
+SCRIPT_TESTS_ONCE += host_tests/modbus_figures.py
+BENCHES += bench-modbus
+bench-modbus:
+	@test -x $(PYTHON) || sh host_tests/setup.sh
+	@$(PYTHON) host_tests/modbus_figures.py --table
+test_modbus_noise_TIMEOUT = 900
+
+# Foreign clients.
+LIBMODBUS = $(shell pkg-config --cflags --libs libmodbus 2>/dev/null || echo -lmodbus)
+build/test/interop_libmodbus: host_tests/interop_libmodbus.c build/unity/unity.c
+	@mkdir -p $(@D)
+	$(call say,LD,$@)gcc $(WARNINGS) -O1 -g -Ibuild/unity $^ $(LIBMODBUS) -o $@
+build-tests: build/test/interop_libmodbus
+SCRIPT_TESTS += host_tests/interop_libmodbus.py host_tests/interop_modbus.py

@@ -245,6 +245,49 @@ static void test_nothing_of_ours_is_lost_among_others(void)
     TEST_ASSERT_EQUAL(40, mb_diag.counter[MB_BUS_ERROR]);
 }
 
+/* On a line that comes in lumps: another station's answer and the next request without a silence between. */
+static void test_lumps_are_told_apart_by_the_other_stations_crc(void)
+{
+    static const uint8_t foreign[] = {0x12, 0x03, 0x02, 0x00, 0x05, 0xFD, 0x84};
+    mb_port.gap_tbit = 100;
+    mb_open();
+    mbc_idle(200);
+    client.wrong.noise = foreign;
+    client.wrong.noise_n = sizeof foreign;
+    client.wrong.noise_gap = 1;
+    for (unsigned i = 0; i < 5; i++) {
+        ask(GOOD, ANSWER);
+        mbc_idle(100);
+    }
+    TEST_ASSERT_EQUAL(10, mb_diag.counter[MB_BUS_MESSAGE]);
+    TEST_ASSERT_EQUAL(0, mb_diag.counter[MB_BUS_ERROR]);
+    mb_port.gap_tbit = 0; /* where silence shows it counts */
+    mb_open();
+    mbc_idle(200);
+    mbc_send(&client, request, sizeof request);
+    silence_then_good();
+}
+
+/* A write to us whose first octets are a good frame, too: only the whole of it counts. */
+static void test_lumps_do_not_cut_a_frame_to_us(void)
+{
+    static const uint8_t frame[] = {0x11, 0x10, 0x00, 0x01, 0x00, 0x03, 0x06, 0x11, 0x06};
+    uint8_t body[MBC_FRAME_MAX], want[8];
+    mb_port.gap_tbit = 100;
+    mb_open();
+    mbc_idle(200);
+    memcpy(body, frame, sizeof frame);
+    const uint16_t crc = mbc_crc(body, 9);
+    body[9] = (uint8_t)crc;
+    body[10] = (uint8_t)(crc >> 8);
+    body[11] = body[12] = 0x22;
+    mbc_send(&client, body, 13);
+    TEST_ASSERT_EQUAL(6, mbc_wait(&client, body));
+    TEST_ASSERT_EQUAL(6, hex_octets("11 10 00 01 00 03", want));
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(want, body, 6);
+    TEST_ASSERT_EQUAL_HEX16(0x2222, holding_0[3]);
+}
+
 static void test_an_octet_glued_to_a_request_spoils_only_that_request(void)
 {
     static const uint8_t noise[] = {0x55};
@@ -611,6 +654,8 @@ int main(void)
     RUN_TEST(test_rtu_an_address_with_its_crc_alone_is_no_frame);
     RUN_TEST(test_rtu_256_octets_are_a_frame_257_are_not);
     RUN_TEST(test_nothing_of_ours_is_lost_among_others);
+    RUN_TEST(test_lumps_are_told_apart_by_the_other_stations_crc);
+    RUN_TEST(test_lumps_do_not_cut_a_frame_to_us);
     RUN_TEST(test_an_octet_glued_to_a_request_spoils_only_that_request);
     RUN_TEST(test_a_late_answer_is_not_sent_into_the_next_request);
     RUN_TEST(test_the_answer_is_sent_as_one_run_and_the_driver_drops_behind_it);

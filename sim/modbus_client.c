@@ -72,7 +72,7 @@ unsigned mbc_wait(struct mbc *c, uint8_t *body)
 {
     const hv_time end = hv_now() + c->time_out;
     const hv_time quiet = 40 * hv_bit();
-    while (hv_now() < end && (c->heard_n == 0 || hv_now() < c->answer_end + quiet))
+    while (c->heard_n == 0 ? hv_now() < end : hv_now() < c->answer_end + quiet)
         hv_run_for(10 * hv_bit());
     return c->heard_n ? mbc_unframe(&c->coding, c->heard, c->heard_n, body) : 0;
 }

@@ -23,7 +23,7 @@ struct mbc_wrong {
 struct mbc {
     struct mbc_coding coding;
     struct mbc_wrong wrong;
-    hv_time time_out; /* for an answer */
+    hv_time time_out; /* for the start of an answer */
     /* what was heard: */
     uint8_t heard[MBC_FRAME_MAX];
     unsigned heard_n;
@@ -39,7 +39,7 @@ void mbc_put(struct mbc *c, const uint8_t *octets, unsigned n);
 /* Send body as a frame after t_before of silence. */
 void mbc_send(struct mbc *c, const uint8_t *body, unsigned n);
 
-/* Wait for an answer until time_out. -> octets of its body, 0: none, or not a good frame (then heard_n is not 0). */
+/* Wait up to time_out for an answer to start, and for its end. -> octets of its body, 0: none, or not a good frame (then heard_n is not 0). */
 unsigned mbc_wait(struct mbc *c, uint8_t *body);
 
 /* Silence for so many bit times. */

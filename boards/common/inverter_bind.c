@@ -23,14 +23,3 @@ uint8_t mb_server_id_ind(uint8_t XDATA *octets)
 {
     return inv_server_id(octets);
 }
-
-/* All of the inverter lives in main: there is nothing to lock out. */
-uint8_t mb_lock_ind(void)
-{
-    return 0;
-}
-
-void mb_unlock_ind(uint8_t state)
-{
-    (void)state;
-}

@@ -111,12 +111,6 @@ uint8_t mb_block_ind(void);
 /* A write is done. Default: nothing. */
 void mb_written_ind(void);
 
-/* Values in memory are copied between these two, so that an interrupt of the application never sees half a
- * value and never leaves one. Default: interrupts masked. An application that touches its tables in main only
- * may define both empty. */
-uint8_t mb_lock_ind(void);
-void mb_unlock_ind(uint8_t state);
-
 /* ---- the rest of the device ---------------------------------------------------------------------------- */
 
 /* Function 07: eight status bits. Default: 0. */

@@ -7,11 +7,11 @@
  */
 #include "modbus/mb_line.h"
 
-#define LRC_LEN  1u
-#define LAST_MIN (1u + 1u + LRC_LEN - 1u) /* address, function code, LRC */
-#define LAST_MAX (1u + MB_PDU_MAX + LRC_LEN - 1u)
-#define OCTET_MS 1000u /* [S] 2.5.2.1: "intervals of up to one second" */
-#define NO_DIGIT 0xFFu
+#define LRC_LEN   1u
+#define FRAME_MIN 3u /* address, function code, LRC */
+#define FRAME_MAX (1u + MB_PDU_MAX + LRC_LEN)
+#define OCTET_MS  1000u /* [S] 2.5.2.1: "intervals of up to one second" */
+#define NO_DIGIT  0xFFu
 
 uint8_t XDATA mb_delimiter, mb_next_delimiter;
 
@@ -38,10 +38,9 @@ static uint8_t st_high_isr(uint8_t c) IN_ISR
     const uint8_t digit = digit_isr(c);
     if (c == '\r')
         return MB_END;
-    if (digit == NO_DIGIT || mb_rx.last == LAST_MAX)
+    if (digit == NO_DIGIT || mb_rx.n == FRAME_MAX)
         return drop_isr();
-    mb_rx.last++; /* from FFH to 0 at the first */
-    mb_adu[mb_rx.last] = (uint8_t)(digit << 4);
+    mb_adu[mb_rx.n] = (uint8_t)(digit << 4);
     return MB_LOW;
 }
 
@@ -50,16 +49,17 @@ static uint8_t st_low_isr(uint8_t c) IN_ISR
     const uint8_t digit = digit_isr(c);
     if (digit == NO_DIGIT)
         return drop_isr();
-    mb_adu[mb_rx.last] |= digit;
-    mb_rx.lrc = (uint8_t)(mb_rx.lrc + mb_adu[mb_rx.last]);
+    mb_adu[mb_rx.n] |= digit;
+    mb_rx.lrc = (uint8_t)(mb_rx.lrc + mb_adu[mb_rx.n]);
+    mb_rx.n++;
     return MB_HIGH;
 }
 
 static uint8_t st_end_isr(uint8_t c) IN_ISR
 {
-    if (c != mb_delimiter || mb_rx.lrc || mb_rx.last == 0xFF || mb_rx.last < LAST_MIN)
+    if (c != mb_delimiter || mb_rx.lrc || mb_rx.n < FRAME_MIN)
         return drop_isr();
-    mb_frame_end_isr((uint8_t)(mb_rx.last - LRC_LEN));
+    mb_frame_end_isr((uint8_t)(mb_rx.n - 1u - LRC_LEN));
     return mb_rx.state;
 }
 
@@ -67,7 +67,7 @@ static uint8_t start_isr(void) IN_ISR
 {
     if (mb_rx.state != MB_COLON)
         mb_frame_end_isr(0); /* a frame was broken off */
-    mb_rx.last = 0xFF;
+    mb_rx.n = 0;
     mb_rx.lrc = 0;
     return MB_HIGH;
 }

@@ -12,7 +12,13 @@
  *                MB_LEAST    at least as many
  *                | MB_BROADCAST  executed when sent to address 0
  *   MB_WITH_ASCII      1: RTU or ASCII, chosen at run time; 0: RTU only. Default 1
- *   CRC16_ENTRIES      crc16.h
+ *   MB_WITH_LUMPS      1: with mb_port.gap_tbit set, a good frame of another station ends with its CRC; for ptys and
+ *                      USB adapters with several stations. Default 0
+ *   MB_LOCK() MB_UNLOCK(state)  values in memory are copied between these two, so that an interrupt of the
+ *                      application never sees half a value and never leaves one. Default: interrupts masked
+ *                      (hal.h). An application that uses its tables in main only defines them as 0 and (void)(state)
+ *
+ * The table of the CRC is chosen for the whole image: -DCRC16_ENTRIES=16 or 256, crc16.h.
  */
 #ifndef FIELDLING_MB_CONFIG_H
 #define FIELDLING_MB_CONFIG_H
@@ -22,6 +28,14 @@
 
 #ifndef MB_WITH_ASCII
 #define MB_WITH_ASCII 1
+#endif
+
+#ifndef MB_WITH_LUMPS
+#define MB_WITH_LUMPS 0
+#endif
+#ifndef MB_LOCK
+#define MB_LOCK()        hal_irq_save()
+#define MB_UNLOCK(state) hal_irq_restore(state)
 #endif
 
 #define MB_EXACT     0u

@@ -5,6 +5,7 @@
  * or none.
  */
 #include "modbus/mb.h"
+#include "hal/hal.h"
 
 struct mb_span XDATA mb_span;
 
@@ -39,7 +40,7 @@ static void move_registers(void)
 {
     uint16_t XDATA *item = (uint16_t XDATA *)found.block->data + found.offset;
     uint8_t XDATA *wire = mb_span.octets;
-    uint8_t left = (uint8_t)mb_span.qty; /* at most 125 fit a PDU */
+    uint_fast8_t left = (uint_fast8_t)mb_span.qty; /* at most 125 fit a PDU */
     do {
         if (mb_span.write)
             *item = get_u16be(wire);
@@ -83,12 +84,12 @@ uint8_t mb_move(void)
     if (!found.block->data) {
         exception = mb_block_ind();
     } else {
-        lock = mb_lock_ind();
+        lock = MB_LOCK();
         if (mb_span.table <= MB_INPUTS)
             move_bits();
         else
             move_registers();
-        mb_unlock_ind(lock);
+        MB_UNLOCK(lock);
     }
     if (mb_span.write)
         mb_written_ind();

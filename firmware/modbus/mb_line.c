@@ -16,7 +16,7 @@ HOT struct mb_rx mb_rx;
 
 #define CHAR_TBIT 11u /* [S] 2.5.1: always, in RTU */
 #define CRC_LEN   2u
-#define LAST_MIN  (1u + 1u + CRC_LEN - 1u) /* address, function code, CRC */
+#define FRAME_MIN 4u /* address, function code, CRC */
 
 /* ---- main ---------------------------------------------------------------------------------------------- */
 
@@ -66,16 +66,16 @@ uint8_t mb_open(void)
 /* -> octets of the frame */
 static uint16_t append_crc(void)
 {
-    const uint16_t n = (uint16_t)(mb_pdu_len + 1u);
     uint8_t XDATA *at = mb_adu;
-    uint8_t XDATA *const end = mb_adu + n;
-    uint16_t crc = CRC16_START;
+    uint_fast8_t left = (uint_fast8_t)(mb_pdu_len + 1u);
+    static HOT uint16_t crc;
+    crc = CRC16_START;
     do
         crc = crc16_add(crc, *at++);
-    while (at != end);
+    while (--left);
     at[0] = (uint8_t)crc;
     at[1] = (uint8_t)(crc >> 8);
-    return (uint16_t)(n + CRC_LEN);
+    return (uint16_t)(mb_pdu_len + 1u + CRC_LEN);
 }
 
 static bool is_ascii(void)
@@ -100,11 +100,6 @@ void mb_line_answer(void)
     hal_irq_restore(irq);
 }
 
-void mb_line_release(void)
-{
-    mb_rx.state = mb_idle_state;
-}
-
 /* ---- interrupts ---------------------------------------------------------------------------------------- */
 
 void mb_frame_end_isr(uint8_t pdu_len) IN_ISR
@@ -124,29 +119,35 @@ void mb_frame_end_isr(uint8_t pdu_len) IN_ISR
     }
 }
 
-/* `last` goes round from FFH to 0 with the first octet of a frame; with a later one the frame is too long, and what
- * that overwrites no longer matters. */
+/* Our choice, for lines that come in lumps: the answer of another station and the client's next request may come
+ * without a silence to tell them apart. What is a whole good frame of another station ends there. (Not so a frame to
+ * us: by its contents alone nothing is executed.) */
+static bool foreign_frame_isr(void) IN_ISR
+{
+    return mb_port.gap_tbit != 0 && mb_rx.state == MB_RECEPTION && mb_rx.crc == 0 && mb_rx.flaws == 0 &&
+           mb_rx.n >= FRAME_MIN && mb_adu[0] != 0 && mb_adu[0] != mb_port.address;
+}
+
 void line_octet_isr(uint8_t octet, uint8_t err) IN_ISR
 {
     if (MB_WITH_ASCII && mb_rx.state >= MB_COLON && mb_rx.state <= MB_END) {
         mb_ascii_octet_isr(octet, err);
         return;
     }
+    if (MB_WITH_LUMPS && foreign_frame_isr())
+        mb_frame_end_isr((uint8_t)(mb_rx.n - 1u - CRC_LEN));
     if (mb_rx.state == MB_IDLE) {
         mb_rx.state = MB_RECEPTION;
-        mb_rx.last = 0xFF;
+        mb_rx.n = 0;
         mb_rx.flaws = 0;
         mb_rx.crc = CRC16_START;
         hal_silence(mb_rx.t15);
-    } else if (mb_rx.last == 0xFF) {
-        err |= MB_FLAW_LONG;
     }
-    if (mb_rx.state == MB_RECEPTION) {
-        mb_rx.last++;
-        mb_adu[mb_rx.last] = octet;
+    if (mb_rx.state == MB_RECEPTION && mb_rx.n < MB_RTU_MAX) {
+        mb_adu[mb_rx.n++] = octet;
         mb_rx.crc = crc16_add(mb_rx.crc, octet);
     } else {
-        err |= MB_FLAW_GAP;
+        err |= MB_FLAW;
     }
     mb_rx.flaws |= err;
 }
@@ -159,8 +160,8 @@ void line_silence_isr(void) IN_ISR
         mb_rx.state = MB_CONTROL;
         hal_silence(mb_rx.t35);
     } else if (mb_rx.state == MB_CONTROL) {
-        const bool good = !mb_rx.flaws && mb_rx.last >= LAST_MIN && mb_rx.crc == 0;
-        mb_frame_end_isr(good ? (uint8_t)(mb_rx.last - CRC_LEN) : 0);
+        const bool good = !mb_rx.flaws && mb_rx.n >= FRAME_MIN && mb_rx.crc == 0;
+        mb_frame_end_isr(good ? (uint8_t)(mb_rx.n - 1u - CRC_LEN) : 0);
     } else if (mb_rx.state == MB_INITIAL) {
         mb_rx.state = MB_IDLE;
     } /* else: an idle line, the limit is still set */

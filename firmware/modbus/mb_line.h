@@ -24,17 +24,16 @@ enum mb_line_state {
     MB_SENDING,   /* the last stop bit of the answer                                */
 };
 
-/* Why a frame is thrown away, beside the flags HAL_ERR_*. */
-#define MB_FLAW_GAP  0x40u
-#define MB_FLAW_LONG 0x80u
+/* Why a frame is thrown away, beside the flags HAL_ERR_*: an octet after t1.5, or more than a frame has. */
+#define MB_FLAW 0x80u
 
 struct mb_rx {
     volatile uint8_t state; /* enum mb_line_state */
-    uint8_t last;           /* index in mb_adu of the last octet received                          */
-    uint8_t flaws;          /* HAL_ERR_*, MB_FLAW_* of the frame; in MB_READY: something was heard */
-    uint16_t crc;           /* RTU: of mb_adu[0..last]                                             */
+    uint8_t flaws;          /* HAL_ERR_*, MB_FLAW of the frame; in MB_READY: something was heard */
+    uint16_t n;             /* octets of the frame so far, in mb_adu                           */
+    uint16_t crc;           /* RTU: of mb_adu[0..n-1]                                          */
     uint8_t idle;           /* the state in which a frame is awaited: MB_IDLE, or in ASCII MB_COLON */
-    uint8_t lrc;            /* ASCII: sum of mb_adu[0..last]                                       */
+    uint8_t lrc;            /* ASCII: sum of mb_adu[0..n-1]                                       */
     bool fresh;             /* ASCII: a character has come since main last looked                  */
     hal_dur_t t15, t35;
 };
@@ -62,6 +61,9 @@ uint16_t mb_ascii_encode(void);
 
 /* Send the answer mb_pdu[0..mb_pdu_len-1] from our address / give the frame back without one. Main, in MB_READY. */
 void mb_line_answer(void);
-void mb_line_release(void);
+static inline void mb_line_release(void)
+{
+    mb_rx.state = mb_idle_state;
+}
 
 #endif
