@@ -32,3 +32,5 @@ SCRIPT_TESTS_ONCE += host_tests/sigrok.py
 PROGRAMS += fieldling-master
 fieldling-master_SRC = $(addprefix sim/,fieldling_master.c master_ask.c master_cyclic.c master_line.c master_say.c \
                                         master_setup.c gsd_read.c port.c) $(SIM_MASTER)
+
+SCRIPT_TESTS += host_tests/dp_master.py host_tests/gsd_pyprofibus.py
