@@ -23,6 +23,11 @@ UNIT_TESTS += test_remote_module
 test_remote_module_SRC      = $(REMOTE_TEST)
 test_remote_module_DEFAULTS = $(HDLC_DEFAULTS)
 
+# The primary on the line: every fault at every frame.
+UNIT_TESTS += test_hdlc_recovery
+test_hdlc_recovery_SRC      = $(REMOTE_TEST) sim/hdlc_primary.c sim/hdlc_master.c
+test_hdlc_recovery_DEFAULTS = $(HDLC_DEFAULTS)
+
 # Host programs: a remote module; the master station.
 PROGRAMS += fieldling-hdlc
 fieldling-hdlc_SRC      = boards/posix/fieldling_hdlc.c boards/posix/hdlc_line.c boards/posix/rm_host_board.c \
