@@ -198,6 +198,34 @@ static void T14_a_good_telegram_right_behind_a_dropped_one_needs_T_SYN(void)
     ASK("10 08 02 49 54 16 _33 10 08 02 49 53 16", STATUS_OK);
 }
 
+static bool hold_interrupts;
+
+/* The application masks interrupts for three characters, once. */
+static void rude_loop(void)
+{
+    if (hold_interrupts) {
+        hold_interrupts = false;
+        const uint8_t state = hal_irq_save();
+        hv_spend(33 * hv_bit());
+        hal_irq_restore(state);
+    }
+    dp_station_poll();
+}
+
+static void T14_an_octet_lost_in_the_receiver_drops_the_telegram_and_is_counted(void)
+{
+    struct fdl_counters c;
+    hv_set_loop(rude_loop, NULL);
+    hold_interrupts = true;
+    hv_run_for(HV_MS);
+    hold_interrupts = true; /* at the next turn, when the telegram is on its way */
+    SILENT("10 08 02 49 53 16");
+    TEST_ASSERT_GREATER_THAN_UINT(0, hv_seen.octets_lost);
+    fdl_read_counters(&c);
+    TEST_ASSERT_EQUAL_UINT16(1, c.overrun);
+    STILL_ANSWERS;
+}
+
 static void T15_FDL_status_is_answered_in_every_state(void)
 {
     STATE(DDLM_WAIT_PRM);
@@ -264,6 +292,7 @@ int main(void)
     RUN_TEST(T14_an_octet_with_wrong_parity_or_stop_bit_drops_the_telegram);
     RUN_TEST(T14_silence_inside_a_telegram_drops_it);
     RUN_TEST(T14_a_good_telegram_right_behind_a_dropped_one_needs_T_SYN);
+    RUN_TEST(T14_an_octet_lost_in_the_receiver_drops_the_telegram_and_is_counted);
     RUN_TEST(T15_FDL_status_is_answered_in_every_state);
     RUN_TEST(T16_ident_tells_vendor_controller_and_releases);
     RUN_TEST(T16_LSAP_status_tells_what_a_SAP_offers);
