@@ -7,6 +7,7 @@
  * Memory spaces and calling rules, empty everywhere but under SDCC for the 8051:
  *   XDATA    external RAM: buffers, and pointers to them (a plain pointer there costs three times as much)
  *   HOT      internal RAM, direct: the few variables an octet interrupt touches
+ *            (flags in a HOT struct are uint8_t: of `hot.flag = a == b` with a bool flag, SDCC 4.2 forgets the store)
  *   IDATA    internal RAM, indirect
  *   CODE     program memory: constant tables and strings
  *   IN_ISR   ends the declaration AND the definition of every function whose name ends in _isr

@@ -8,6 +8,7 @@ usage: check_sources.py FILE ...
           neither boards nor sim nor a port's own headers; the simulation shares no code with the firmware
   path    no absolute path of a developer's machine
   sleep   unit tests do not wait in host time
+  bool    a struct in internal RAM (HOT) has no bool member: SDCC 4.2 forgets to store a comparison into it
 """
 import re
 import sys
@@ -76,8 +77,24 @@ def check(path):
             yield where + "a unit test waits in host time"
 
 
+HOT_STRUCT = re.compile(r"\bHOT\s+(?:volatile\s+)?struct\s+(\w*)\s*(?:\{([^}]*)\})?")
+
+
+def hot_bools(paths):
+    """The struct may be declared in one file and made HOT in another."""
+    texts = {path: Path(path).read_text(errors="replace") for path in paths if str(path).endswith((".c", ".h"))}
+    hot = {found.group(1) for text in texts.values() for found in HOT_STRUCT.finditer(text)} - {""}
+    for path, text in texts.items():
+        bodies = [found for found in HOT_STRUCT.finditer(text) if found.group(2)]
+        bodies += [found for found in re.finditer(r"\bstruct\s+(\w+)\s*\{([^}]*)\}", text) if found.group(1) in hot]
+        for found in bodies:
+            if re.search(r"^\s*(?:volatile\s+)?bool\b", found.group(2), re.M):
+                line = text.count("\n", 0, found.start()) + 1
+                yield f"{path}:{line}: bool in a HOT struct"
+
+
 def main(paths):
-    problems = [p for path in paths for p in check(path)]
+    problems = [p for path in paths for p in check(path)] + list(hot_bools(paths))
     print("\n".join(problems) if problems else f"sources: {len(paths)} files follow the house rules")
     return 1 if problems or not paths else 0
 

@@ -176,11 +176,11 @@ void fdl_reply_release_isr(struct fdl_reply XDATA *reply) IN_ISR;
 
 struct fdl_req {
     uint8_t service; /* FDL_SDA, FDL_SDN, FDL_SRD */
-    bool high;
+    uint8_t high;    /* 0, 1 (no bool in HOT structs: see check.h) */
     uint8_t dsap;
     uint8_t ssap;
     uint8_t sa;
-    bool sd3;                 /* came as an SD3: our choice: then eight octets go back as an SD3, else as an SD2 as all
+    uint8_t sd3;              /* came as an SD3: our choice: then eight octets go back as an SD3, else as an SD2 as all
                                  recorded stations do */
     uint8_t len;              /* of lsdu; the telegram may have been longer: then it was refused */
     uint8_t XDATA *lsdu;

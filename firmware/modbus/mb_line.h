@@ -34,7 +34,7 @@ struct mb_rx {
     uint16_t crc;           /* RTU: of mb_adu[0..n-1]                                          */
     uint8_t idle;           /* the state in which a frame is awaited: MB_IDLE, or in ASCII MB_COLON */
     uint8_t lrc;            /* ASCII: sum of mb_adu[0..n-1]                                       */
-    bool fresh;             /* ASCII: a character has come since main last looked                  */
+    uint8_t fresh;          /* ASCII: a character has come since main last looked                  */
     hal_dur_t t15, t35;
 };
 extern HOT struct mb_rx mb_rx;

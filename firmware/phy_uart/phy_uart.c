@@ -23,9 +23,9 @@ HOT volatile struct phy_rx phy_rx;
 
 /* Invariant: at most one of phy_rx.waiting and sending is set. */
 static HOT volatile struct {
-    bool sending;
-    bool untimed;    /* the line cannot show silence     */
-    bool transmitter; /* Transmitter_output is enabled    */
+    uint8_t sending;
+    uint8_t untimed;    /* the line cannot show silence     */
+    uint8_t transmitter; /* Transmitter_output is enabled */
 } line;
 
 static uint16_t t_syn_tbit;
