@@ -5,7 +5,7 @@
 
 define image
 $1_$2_objects := $(patsubst %.c,build/$1/$2/%.o,$(patsubst %.S,build/$1/$2/%.o,$3))
-$1_$2_defaults := $(patsubst %.c,build/$1/$2/%.o,$5)
+$1_$2_defaults := $(patsubst %.c,build/$1/$2/%.o,$5 boards/common/mem.c)
 build/$1/$2/%.o: %.c
 	@mkdir -p $$(@D)
 	$$(call say,CC,$$@)$$($1_CC) $4 -MMD -MP -c $$< -o $$@
@@ -27,6 +27,6 @@ $1_CC = arm-none-eabi-gcc -mcpu=$2 -mthumb -Os -std=gnu99 -ffreestanding -ffunct
         -Iboards/common
 $1_SCRIPT = boards/$1/board.ld firmware/hal/cortexm/flash.ld
 $1_LD = -nostdlib -Wl,--gc-sections,--no-warn-rwx-segments,-T,boards/$1/board.ld -lgcc
-$1_PORT = boards/$1/board.c firmware/hal/cortexm/core.c firmware/hal/line_uart.c firmware/hal/nv_log.c \
+$1_PORT = boards/$1/board.c firmware/hal/cortexm/core.c $$(addprefix firmware/hal/,line_uart.c nv_log.c con_in.c) \
           $$(wildcard firmware/hal/cortexm/$3/*.c)
 endef

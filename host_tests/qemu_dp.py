@@ -96,8 +96,9 @@ def test_lm3s6965evb_driver_pin_is_on_for_the_answer_only():
         machine.process.terminate()
         machine.process.wait()
         with open(machine.events) as file:
-            levels = re.findall(r"pl061_set_output.*(?:bit|line) 0.*?to (\d)|set output 0 to (\d)", file.read())
-    expect("driver went on and off", len(levels) >= 2, True)
+            levels = re.findall(r"pl061_set_output .* setting output (\d) to (\d)", file.read())
+    expect("driver went on and off", levels[:2], [("4", "1"), ("4", "0")])
+    expect("driver is off at the end", levels[-1], ("4", "0"))
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ com86_CC = gcc -m32 -march=i386 -Os -std=gnu99 -ffreestanding -fno-pic -fno-stac
            -Wall -Wextra -Wconversion -Werror -Ifirmware -Ifirmware/hal/x86 -Iboards/com86 -Iboards/common
 com86_SCRIPT = boards/com86/rom.ld
 com86_LD = -nostdlib -static -no-pie -Wl,--build-id=none,--gc-sections,--no-warn-rwx-segments,-T,boards/com86/rom.ld
-com86_PORT = boards/com86/start.S boards/com86/board.c firmware/hal/line_uart.c firmware/hal/nv_log.c \
+com86_PORT = boards/com86/start.S boards/com86/board.c $(addprefix firmware/hal/,line_uart.c nv_log.c con_in.c) \
              $(wildcard firmware/hal/x86/*.c)
 
 $(eval $(call image,com86,fieldling-dp,$(com86_PORT) $(CONSOLE_DP),-DFIELDLING_CONFIG='"dp_test01.h"',$(DP_DEFAULTS)))

@@ -1,5 +1,5 @@
 /* LM3S6965 evaluation board: the numbers the Cortex-M port needs. Console on UART 0, line on UART 1 (PD2, PD3), driver
- * enable on PD0, 50 MHz from the PLL. */
+ * enable on PD4 (PD0 selects the memory card), 50 MHz from the PLL. */
 #ifndef LM3S6965EVB_HAL_BOARD_H
 #define LM3S6965EVB_HAL_BOARD_H
 
@@ -15,7 +15,7 @@
 #define BOARD_TIMER        0x40030000u
 #define BOARD_TIMER_IRQ    19
 #define BOARD_DRIVER_GPIO  0x40007000u
-#define BOARD_DRIVER_PIN   0x01u
+#define BOARD_DRIVER_PIN   0x10u
 
 #define BOARD_NV_PAGE     0x0003FC00u /* last of 256 kB */
 #define BOARD_NV_PAGE_LEN 1024u

@@ -1,10 +1,16 @@
 #include "hal/line_uart.h"
 #include "uart.h"
 
+STATIC_ASSERT((hal_dur_t)0xFFFFFFFFu == 0xFFFFFFFFu, silence_needs_32_bits);
+
 enum use { TIMER_OFF, TIMER_SILENCE, TIMER_DRAIN, TIMER_WAKE };
 
+/* A silence older than this is kept at this age. */
+#define AGE_MOST 0xC0000000u
+
 /* Invariants: limit == 0 switches the silence clock off; reported is set from line_silence_isr() until the next octet
- * or limit; tx.at[0..tx.left-1] is what has not gone into the transmitter yet. */
+ * or limit; while there is something to report, timer_use is not TIMER_OFF or TIMER_WAKE; tx.at[0..tx.left-1] is what has
+ * not gone into the transmitter yet. */
 static volatile uint8_t timer_use;
 static hal_dur_t limit;
 static hal_dur_t last_octet; /* timer_now() at the end of the last one, or when the line was opened */
@@ -17,7 +23,7 @@ static struct {
     bool busy;
 } tx;
 
-static uint32_t counts_per_bit_256; /* 24.8 fixed point */
+static uint32_t counts_per_bit_256; /* 24.8 fixed point, rounded up */
 static hal_dur_t bit_counts;
 static hal_dur_t char_counts;
 
@@ -46,16 +52,17 @@ static void arm_isr(void)
         start_isr(TIMER_SILENCE, gone < limit ? (hal_dur_t)(limit - gone) : 1u);
 }
 
-static void octet_ended_isr(void)
+static inline void heard_isr(void)
 {
     last_octet = timer_now();
     reported = false;
-    arm_isr();
+    if (timer_use != TIMER_SILENCE && limit)
+        start_isr(TIMER_SILENCE, limit);
 }
 
 void hal_silence(hal_dur_t d)
 {
-    limit = d;
+    limit = d < AGE_MOST ? d : AGE_MOST;
     reported = false;
     if (!tx.busy)
         arm_isr();
@@ -63,6 +70,10 @@ void hal_silence(hal_dur_t d)
 
 void line_uart_wake(hal_dur_t counts)
 {
+    hal_dur_t now = timer_now();
+
+    if ((hal_dur_t)(now - last_octet) > AGE_MOST)
+        last_octet = (hal_dur_t)(now - AGE_MOST);
     if (timer_use == TIMER_OFF)
         start_isr(TIMER_WAKE, counts);
 }
@@ -77,11 +88,11 @@ static bool drain_isr(void)
     uint8_t err;
 
     while (uart_rx(&octet, &err)) {
-        if (tx.busy && !loop)
+        if (!tx.busy)
+            heard_isr();
+        else if (!loop)
             continue; /* our own */
         any = true;
-        if (!tx.busy)
-            octet_ended_isr();
         line_octet_isr(octet, err);
     }
     return any;
@@ -110,18 +121,20 @@ void hal_send(const uint8_t *octets, uint16_t n)
     tx.at = octets;
     tx.left = n;
     tx.busy = true;
-    uart_driver(true);
+    if (!loop)
+        uart_driver(true);
     fill_isr();
     uart_tx_irq(true);
 }
 
+/* Our last octet may still wait in the receiver: it is taken while it is known to be ours. */
 static void sent_isr(void)
 {
-    if (loop)
-        drain_isr();
-    uart_driver(false);
+    drain_isr();
+    if (!loop)
+        uart_driver(false);
     tx.busy = false;
-    octet_ended_isr();
+    heard_isr();
     line_sent_isr();
 }
 
@@ -152,17 +165,27 @@ static void drained_isr(void)
         start_isr(TIMER_DRAIN, bit_counts);
 }
 
+static void silent_isr(void)
+{
+    if (drain_isr())
+        return;
+    if ((hal_dur_t)(timer_now() - last_octet) < limit) {
+        arm_isr();
+        return;
+    }
+    reported = true;
+    line_silence_isr();
+}
+
 void line_uart_timer_isr(void)
 {
     uint8_t use = timer_use;
 
     timer_use = TIMER_OFF;
-    if (use == TIMER_DRAIN) {
+    if (use == TIMER_DRAIN)
         drained_isr();
-    } else if (use == TIMER_SILENCE && !drain_isr()) {
-        reported = true;
-        line_silence_isr();
-    }
+    else if (use == TIMER_SILENCE)
+        silent_isr();
 }
 
 /* ---- opening -------------------------------------------------------------------------------------------------------------- */
@@ -171,12 +194,33 @@ static const uint8_t char_bits[HAL_FORMATS] = {
     [HAL_8E1] = 11, [HAL_8O1] = 11, [HAL_8N2] = 11, [HAL_8N1] = 10, [HAL_7E1] = 10, [HAL_7O1] = 10, [HAL_7N2] = 10,
 };
 
+uint32_t line_uart_divisor(uint32_t clock, uint32_t bit_per_s, uint32_t most)
+{
+    uint32_t divisor = (clock + bit_per_s / 2u) / bit_per_s;
+    uint32_t got;
+    uint32_t off;
+
+    if (divisor == 0 || divisor > most)
+        return 0;
+    got = clock / divisor;
+    off = got > bit_per_s ? got - bit_per_s : bit_per_s - got;
+    return off <= bit_per_s / 1000u * 3u + bit_per_s % 1000u * 3u / 1000u ? divisor : 0;
+}
+
+static void set_times(uint32_t bit_per_s, uint8_t bits)
+{
+    counts_per_bit_256 = (uint32_t)(TIMER_HZ / bit_per_s) << 8;
+    counts_per_bit_256 += (((uint32_t)(TIMER_HZ % bit_per_s) << 8) + bit_per_s - 1u) / bit_per_s;
+    bit_counts = hal_tbit(1);
+    char_counts = hal_tbit(bits);
+}
+
 uint8_t hal_line_open(uint32_t bit_per_s, uint8_t format)
 {
     uint8_t kind = format & (uint8_t)~HAL_LOOP;
     uint8_t irq;
 
-    if (bit_per_s == 0 || kind >= HAL_FORMATS)
+    if (bit_per_s == 0 || bit_per_s > 12000000u || kind >= HAL_FORMATS)
         return HAL_LINE_NO;
     irq = hal_irq_save();
     if (!uart_open(bit_per_s, format)) {
@@ -189,10 +233,7 @@ uint8_t hal_line_open(uint32_t bit_per_s, uint8_t format)
     tx.left = 0;
     tx.busy = false;
     loop = (format & HAL_LOOP) != 0;
-    counts_per_bit_256 = (uint32_t)(TIMER_HZ / bit_per_s) << 8;
-    counts_per_bit_256 += ((TIMER_HZ % bit_per_s) << 8) / bit_per_s;
-    bit_counts = hal_tbit(1);
-    char_counts = hal_tbit(char_bits[kind]);
+    set_times(bit_per_s, char_bits[kind]);
     last_octet = timer_now();
     hal_irq_restore(irq);
     return HAL_LINE_TIMED;
@@ -201,8 +242,8 @@ uint8_t hal_line_open(uint32_t bit_per_s, uint8_t format)
 hal_dur_t hal_tbit(uint16_t n)
 {
     const hal_dur_t most = (hal_dur_t)~(hal_dur_t)0;
-    uint32_t whole = (counts_per_bit_256 >> 8) * n;
-    uint32_t counts = whole + (((counts_per_bit_256 & 0xFFu) * n + 0xFFu) >> 8);
+    uint32_t whole = counts_per_bit_256 >> 8;
+    uint32_t part = ((counts_per_bit_256 & 0xFFu) * n + 0xFFu) >> 8;
 
-    return counts > most ? most : (hal_dur_t)counts;
+    return whole && n > (most - part) / whole ? most : (hal_dur_t)(whole * n + part);
 }

@@ -12,14 +12,10 @@
 #define AIRCR           0xE000ED0Cu
 #define AIRCR_RESET_REQ 0x05FA0004u
 
-#define WAKE_MS        10u
-#define CONSOLE_BUFFER 64u
+#define WAKE_MS 10u
 
-static uint8_t buffer[CONSOLE_BUFFER]; /* console input; in: interrupt, out: main loop, one octet each */
-static volatile uint8_t buffer_in;
-static volatile uint8_t buffer_out;
+volatile bool core_interrupted;
 
-static volatile bool interrupted;
 static uint32_t clocks;
 static uint32_t last_count = SYST_TOP;
 static uint32_t last_clocks; /* at the last whole millisecond */
@@ -74,47 +70,23 @@ void hal_irq_restore(uint8_t state)
         __asm__ volatile("cpsie i" : : : "memory");
 }
 
-void core_interrupted_isr(void)
-{
-    interrupted = true;
-}
-
-/* wfi ends with a pending interrupt even while masked, so nothing is missed between the look and the sleep. */
+/* Sleep until an interrupt, unless one has come since the last time: the main loop may not have seen what it brought.
+ * wfi ends with a pending interrupt even while masked, so nothing is missed between the look and the sleep; the interrupt
+ * itself runs when it is let in. */
 void hal_idle(void)
 {
     uint8_t irq = hal_irq_save();
 
-    if (!interrupted) {
+    if (!core_interrupted) {
         line_uart_wake(WAKE_MS * (TIMER_HZ / 1000u));
-        __asm__ volatile("wfi" : : : "memory");
+        __asm__ volatile("wfi\n cpsie i\n isb\n cpsid i" : : : "memory");
     }
-    interrupted = false;
+    core_interrupted = false;
     hal_irq_restore(irq);
     (void)hal_ticks();
 }
 
 /* ---- console ---------------------------------------------------------------------------------------------------------- */
-
-void core_console_isr(uint8_t octet)
-{
-    uint8_t next = (uint8_t)((buffer_in + 1u) % CONSOLE_BUFFER);
-
-    if (next == buffer_out)
-        return;
-    buffer[buffer_in] = octet;
-    buffer_in = next;
-}
-
-int16_t hal_con_get(void)
-{
-    uint8_t octet;
-
-    if (buffer_out == buffer_in)
-        return -1;
-    octet = buffer[buffer_out];
-    buffer_out = (uint8_t)((buffer_out + 1u) % CONSOLE_BUFFER);
-    return octet;
-}
 
 void hal_con_put(uint8_t octet)
 {

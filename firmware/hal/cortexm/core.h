@@ -13,22 +13,17 @@ static inline void nvic_enable(uint8_t irq)
     REG(0xE000E100u + 4u * (irq / 32u)) = 1ul << (irq % 32u);
 }
 
-static inline void nvic_clear_pending(uint8_t irq)
-{
-    REG(0xE000E280u + 4u * (irq / 32u)) = 1ul << (irq % 32u);
-}
 
-/* Clocks of the core since start, wraps at 32 bits. Must be called at least once in 2^24 clocks. lock, isr. */
+/* Clocks of the core since start, wraps at 32 bits. Must be called at least once in 2^24 clocks: a timer that wakes the
+ * main loop must not run longer than CORE_CLOCKS_MOST. lock, isr. */
+#define CORE_CLOCKS_MOST 0x800000ul
 uint32_t core_clocks_isr(void);
 
-/* Set when an interrupt has come; hal_idle() looks at it. Every handler of a part calls this. isr. */
-void core_interrupted_isr(void);
+/* An interrupt has come since hal_idle() looked. Every handler of a part sets it. */
+extern volatile bool core_interrupted;
 
 /* Start over. Does not return. */
 void core_reset(void) __attribute__((noreturn));
-
-/* Console input, from the part's handler. isr. */
-void core_console_isr(uint8_t octet);
 
 /* Clocks, pins and interrupts of the part: from hal_init(), interrupts masked. Implemented by the part. */
 void part_init(void);

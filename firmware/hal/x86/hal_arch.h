@@ -4,6 +4,6 @@
 
 #include <stdint.h>
 
-typedef uint16_t hal_dur_t; /* clocks of the 8254, 0.838 us */
+typedef uint32_t hal_dur_t; /* clocks of the 8254, 0.838 us */
 
 #endif

@@ -1,19 +1,14 @@
 /* The machine around the line: interrupt controllers, time, console UART, non-volatile cells. */
-#include "hal_board.h"
-#include "hal/hal.h"
+#include "hal/con_in.h"
 #include "hal/line_uart.h"
 #include "hal/x86/pc.h"
+#include "hal_board.h"
 
 #define WAKE_COUNTS 11932u /* 10 ms: the main loop sees the milliseconds go by */
 
-#define CONSOLE_BUFFER 64u
-
-static uint8_t buffer[CONSOLE_BUFFER]; /* console input; in: interrupt, out: main loop, one octet each */
-static volatile uint8_t buffer_in;
-static volatile uint8_t buffer_out;
-
-static uint16_t counted;  /* pc_now_isr() at the last look */
-static uint32_t clocks;   /* not yet a millisecond         */
+static uint16_t last_count;
+static uint32_t clocks;
+static uint32_t last_clocks; /* at the last whole millisecond */
 static uint16_t ms;
 
 /* ---- interrupts ------------------------------------------------------------------------------------------------------- */
@@ -60,7 +55,7 @@ static void init_pit(void)
     out8(PIT_CH2, 0);
 }
 
-uint16_t pc_now_isr(void)
+static uint16_t count_isr(void)
 {
     uint16_t down;
 
@@ -70,16 +65,22 @@ uint16_t pc_now_isr(void)
     return (uint16_t)(0u - down);
 }
 
-/* The counter wraps every 55 ms: the main loop must look more often than that, and so must a wait. */
+uint32_t pc_clocks_isr(void)
+{
+    uint16_t count = count_isr();
+
+    clocks += (uint16_t)(count - last_count);
+    last_count = count;
+    return clocks;
+}
+
 uint16_t hal_ticks(void)
 {
     uint8_t irq = hal_irq_save();
-    uint16_t now = pc_now_isr();
+    uint32_t now = pc_clocks_isr();
 
-    clocks += (uint16_t)(now - counted);
-    counted = now;
-    while (clocks >= PIT_HZ / 1000u) {
-        clocks -= PIT_HZ / 1000u;
+    while (now - last_clocks >= PIT_HZ / 1000u) {
+        last_clocks += PIT_HZ / 1000u;
         ms++;
     }
     hal_irq_restore(irq);
@@ -102,29 +103,9 @@ static void init_console(void)
 
 void pc_console_isr(void)
 {
-    uint8_t octet;
-    uint8_t next;
-
-    while (in8(BOARD_CONSOLE_UART + UART_LSR) & LSR_READY) {
-        octet = in8(BOARD_CONSOLE_UART + UART_DATA);
-        next = (uint8_t)((buffer_in + 1u) % CONSOLE_BUFFER);
-        if (next != buffer_out) {
-            buffer[buffer_in] = octet;
-            buffer_in = next;
-        }
-    }
+    while (in8(BOARD_CONSOLE_UART + UART_LSR) & LSR_READY)
+        con_in_isr(in8(BOARD_CONSOLE_UART + UART_DATA));
     (void)in8(BOARD_CONSOLE_UART + UART_IIR);
-}
-
-int16_t hal_con_get(void)
-{
-    uint8_t octet;
-
-    if (buffer_out == buffer_in)
-        return -1;
-    octet = buffer[buffer_out];
-    buffer_out = (uint8_t)((buffer_out + 1u) % CONSOLE_BUFFER);
-    return octet;
 }
 
 void hal_con_put(uint8_t octet)
@@ -144,7 +125,7 @@ void hal_init(void)
     init_pit();
     init_console();
     out8(BOARD_LINE_UART + UART_MCR, MCR_DTR | MCR_OUT2);
-    counted = pc_now_isr();
+    last_count = count_isr();
 }
 
 /* Sleep until an interrupt, unless one has come since the last time: the main loop may not have seen what it brought. */

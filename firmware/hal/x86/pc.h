@@ -38,6 +38,7 @@ static inline uint8_t in8(uint16_t port)
 #define PIT_CH2_RATE     0xB4u /* mode 2, low then high octet */
 #define PIT_CH2_LATCH    0x80u
 #define PIT_HZ           1193182ul
+#define PIT_MOST         0x7FFFu /* longest one-shot: somebody must look at channel 2 before it has gone round */
 #define PORT_B           0x61u /* bit 0 gate of channel 2, bit 1 speaker */
 
 /* ---- 16550: offsets from its base ---- */
@@ -80,7 +81,7 @@ static inline uint8_t in8(uint16_t port)
 #define LSR_PARITY  0x04u
 #define LSR_FRAMING 0x08u
 #define LSR_BREAK   0x10u
-#define LSR_ANY_RX  0x1Fu
+#define LSR_ERRORS  0x1Eu
 #define LSR_THRE    0x20u
 #define LSR_TEMT    0x40u /* holding and shift register are empty: the last stop bit is out */
 
@@ -93,7 +94,7 @@ void pc_console_isr(void);
 /* An interrupt has come since this was cleared. */
 extern volatile bool pc_had_irq;
 
-/* Free-running count of channel 2, 1.193182 MHz, wraps at 65536. lock, isr. */
-uint16_t pc_now_isr(void);
+/* Clocks of channel 2 since start, 1.193182 MHz, wraps at 32 bits. Must be called at least every 54 ms. lock, isr. */
+uint32_t pc_clocks_isr(void);
 
 #endif

@@ -10,6 +10,9 @@
 
 bool uart_open(uint32_t bit_per_s, uint8_t format);
 
+/* HAL_ERR_ flags of a line status with errors. isr. */
+uint8_t uart_err_of(uint8_t lsr);
+
 /* Modem control register as last written; the driver enable is RTS. */
 extern uint8_t uart_mcr;
 
@@ -17,18 +20,10 @@ static inline bool uart_rx(uint8_t *octet, uint8_t *err)
 {
     uint8_t lsr = in8(BOARD_LINE_UART + UART_LSR);
 
-    if (!(lsr & LSR_ANY_RX))
+    if (!(lsr & LSR_READY))
         return false;
     *octet = in8(BOARD_LINE_UART + UART_DATA);
-    *err = 0;
-    if (lsr & LSR_OVERRUN)
-        *err |= HAL_ERR_OVERRUN;
-    if (lsr & LSR_PARITY)
-        *err |= HAL_ERR_PARITY;
-    if (lsr & LSR_FRAMING)
-        *err |= HAL_ERR_FRAMING;
-    if (lsr & LSR_BREAK)
-        *err |= HAL_ERR_BREAK;
+    *err = (lsr & LSR_ERRORS) ? uart_err_of(lsr) : 0;
     return true;
 }
 
@@ -52,25 +47,24 @@ static inline bool uart_tx_idle(void)
     return (in8(BOARD_LINE_UART + UART_LSR) & LSR_TEMT) != 0;
 }
 
-/* In the loop the pins stay as they are: nothing reaches the line. */
 static inline void uart_driver(bool on)
 {
-    if (uart_mcr & MCR_LOOP)
-        return;
     uart_mcr = on ? uart_mcr | MCR_RTS : uart_mcr & (uint8_t)~MCR_RTS;
     out8(BOARD_LINE_UART + UART_MCR, uart_mcr);
 }
 
 static inline hal_dur_t timer_now(void)
 {
-    return pc_now_isr();
+    return pc_clocks_isr();
 }
 
 static inline void timer_start(hal_dur_t counts)
 {
+    uint16_t n = (uint16_t)(counts < PIT_MOST ? counts : PIT_MOST);
+
     out8(PIT_MODE, PIT_CH0_ONE_SHOT);
-    out8(PIT_CH0, (uint8_t)counts);
-    out8(PIT_CH0, (uint8_t)(counts >> 8));
+    out8(PIT_CH0, (uint8_t)n);
+    out8(PIT_CH0, (uint8_t)(n >> 8));
 }
 
 /* A control word without a count: the output stays low and does not rise. */

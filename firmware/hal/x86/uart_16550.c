@@ -11,23 +11,24 @@ static const uint8_t lcr_of[HAL_FORMATS] = {
     [HAL_7E1] = LCR_7E1, [HAL_7O1] = LCR_7O1, [HAL_7N2] = LCR_7N2,
 };
 
-/* Divisor for a rate, 0 where it is off by more than 0.3 %. */
-static uint16_t divisor_of(uint32_t bit_per_s)
+uint8_t uart_err_of(uint8_t lsr)
 {
-    uint32_t divisor = (BOARD_UART_HZ / 16u + bit_per_s / 2u) / bit_per_s;
-    uint32_t got;
-    uint32_t off;
+    uint8_t err = 0;
 
-    if (divisor == 0 || divisor > 0xFFFFu)
-        return 0;
-    got = BOARD_UART_HZ / 16u / divisor;
-    off = got > bit_per_s ? got - bit_per_s : bit_per_s - got;
-    return off * 1000u <= bit_per_s * 3u ? (uint16_t)divisor : 0;
+    if (lsr & LSR_OVERRUN)
+        err |= HAL_ERR_OVERRUN;
+    if (lsr & LSR_PARITY)
+        err |= HAL_ERR_PARITY;
+    if (lsr & LSR_FRAMING)
+        err |= HAL_ERR_FRAMING;
+    if (lsr & LSR_BREAK)
+        err |= HAL_ERR_BREAK;
+    return err;
 }
 
 bool uart_open(uint32_t bit_per_s, uint8_t format)
 {
-    uint16_t divisor = divisor_of(bit_per_s);
+    uint32_t divisor = line_uart_divisor(BOARD_UART_HZ / 16u, bit_per_s, 0xFFFFu);
 
     if (divisor == 0)
         return false;

@@ -28,6 +28,7 @@
 #define DR_PARITY  0x200u
 #define DR_BREAK   0x400u
 #define DR_OVERRUN 0x800u
+#define DR_ERRORS  0xF00u
 
 #define INT_RX    0x010u
 #define INT_TX    0x020u
@@ -46,6 +47,9 @@
 
 bool uart_open(uint32_t bit_per_s, uint8_t format);
 
+/* HAL_ERR_ flags of a data register with errors. isr. */
+uint8_t uart_err_of(uint32_t dr);
+
 static inline bool uart_rx(uint8_t *octet, uint8_t *err)
 {
     uint32_t dr;
@@ -54,15 +58,7 @@ static inline bool uart_rx(uint8_t *octet, uint8_t *err)
         return false;
     dr = REG(BOARD_LINE_UART + UART_DR);
     *octet = (uint8_t)dr;
-    *err = 0;
-    if (dr & DR_PARITY)
-        *err |= HAL_ERR_PARITY;
-    if (dr & DR_FRAMING)
-        *err |= HAL_ERR_FRAMING;
-    if (dr & DR_BREAK)
-        *err |= HAL_ERR_BREAK;
-    if (dr & DR_OVERRUN)
-        *err |= HAL_ERR_OVERRUN;
+    *err = (dr & DR_ERRORS) ? uart_err_of(dr) : 0;
     return true;
 }
 
@@ -100,14 +96,12 @@ static inline hal_dur_t timer_now(void)
 static inline void timer_stop(void)
 {
     REG(BOARD_TIMER + GPTM_CTL) = GPTM_STOP;
-    REG(BOARD_TIMER + GPTM_ICR) = GPTM_TIME_OUT;
-    nvic_clear_pending(BOARD_TIMER_IRQ);
 }
 
 static inline void timer_start(hal_dur_t counts)
 {
-    timer_stop();
-    REG(BOARD_TIMER + GPTM_ILR) = counts;
+    REG(BOARD_TIMER + GPTM_CTL) = GPTM_STOP;
+    REG(BOARD_TIMER + GPTM_ILR) = counts < CORE_CLOCKS_MOST ? counts : CORE_CLOCKS_MOST;
     REG(BOARD_TIMER + GPTM_CTL) = GPTM_RUN;
 }
 

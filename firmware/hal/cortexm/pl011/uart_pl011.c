@@ -1,4 +1,5 @@
 /* Rate, format and interrupts of the Stellaris parts. */
+#include "hal/con_in.h"
 #include "hal/line_uart.h"
 #include "uart.h"
 
@@ -30,18 +31,27 @@ static const uint8_t lcrh_of[HAL_FORMATS] = {
     [HAL_7E1] = LCRH_7E1, [HAL_7O1] = LCRH_7O1, [HAL_7N2] = LCRH_7N2,
 };
 
-/* Clocks of the core in 64 bits, rounded: integer part IBRD, 6 bits FBRD. 0 where the rate cannot be met to 0.3 %. */
+uint8_t uart_err_of(uint32_t dr)
+{
+    uint8_t err = 0;
+
+    if (dr & DR_PARITY)
+        err |= HAL_ERR_PARITY;
+    if (dr & DR_FRAMING)
+        err |= HAL_ERR_FRAMING;
+    if (dr & DR_BREAK)
+        err |= HAL_ERR_BREAK;
+    if (dr & DR_OVERRUN)
+        err |= HAL_ERR_OVERRUN;
+    return err;
+}
+
+/* Sixteen samples a bit, divider in 1/64: integer part IBRD, 6 bits FBRD; at least 1. */
 static uint32_t divisor_of(uint32_t bit_per_s)
 {
-    uint32_t divisor = (BOARD_CORE_HZ * 4u + bit_per_s / 2u) / bit_per_s;
-    uint32_t got;
-    uint32_t off;
+    uint32_t divisor = line_uart_divisor(BOARD_CORE_HZ * 4u, bit_per_s, 0x3FFFFFu);
 
-    if (divisor < 64u || divisor > 0x3FFFFFu)
-        return 0;
-    got = BOARD_CORE_HZ * 4u / divisor;
-    off = got > bit_per_s ? got - bit_per_s : bit_per_s - got;
-    return off * 100u <= bit_per_s / 10u * 3u ? divisor : 0;
+    return divisor < 64u ? 0 : divisor;
 }
 
 static void program(uint32_t uart, uint32_t divisor, uint8_t lcrh, uint32_t control)
@@ -50,6 +60,8 @@ static void program(uint32_t uart, uint32_t divisor, uint8_t lcrh, uint32_t cont
     REG(uart + UART_IBRD) = divisor >> 6;
     REG(uart + UART_FBRD) = divisor & 63u;
     REG(uart + UART_LCRH) = lcrh;
+    while (!(REG(uart + UART_FR) & FR_RXFE)) /* what came before would hold back the first interrupt */
+        (void)REG(uart + UART_DR);
     REG(uart + UART_ICR) = 0x7FF;
     REG(uart + UART_CR) = control;
 }
@@ -63,8 +75,6 @@ bool uart_open(uint32_t bit_per_s, uint8_t format)
     uart_driver(false);
     program(BOARD_LINE_UART, divisor, lcrh_of[format & (uint8_t)~HAL_LOOP],
             (format & HAL_LOOP) ? CR_ON | CR_LOOP : CR_ON);
-    while (!(REG(BOARD_LINE_UART + UART_FR) & FR_RXFE))
-        (void)REG(BOARD_LINE_UART + UART_DR);
     uart_tx_irq(false);
     return true;
 }
@@ -102,17 +112,17 @@ void part_console_put(uint8_t octet)
 
 static void console_isr(void)
 {
-    core_interrupted_isr();
+    core_interrupted = true;
     REG(BOARD_CONSOLE_UART + UART_ICR) = INT_RX;
     while (!(REG(BOARD_CONSOLE_UART + UART_FR) & FR_RXFE))
-        core_console_isr((uint8_t)REG(BOARD_CONSOLE_UART + UART_DR));
+        con_in_isr((uint8_t)REG(BOARD_CONSOLE_UART + UART_DR));
 }
 
 static void line_isr(void)
 {
     uint32_t why = REG(BOARD_LINE_UART + UART_MIS);
 
-    core_interrupted_isr();
+    core_interrupted = true;
     REG(BOARD_LINE_UART + UART_ICR) = why;
     line_uart_rx_isr();
     if (why & INT_TX)
@@ -121,7 +131,7 @@ static void line_isr(void)
 
 static void timer_isr(void)
 {
-    core_interrupted_isr();
+    core_interrupted = true;
     REG(BOARD_TIMER + GPTM_ICR) = GPTM_TIME_OUT;
     line_uart_timer_isr();
 }

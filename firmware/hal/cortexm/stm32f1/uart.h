@@ -1,5 +1,5 @@
 /* A USART and a timer of the STM32F1 as line_uart.h wants them. Source: RM0008, chapters 15 (general purpose timers) and
- * 27 (USART). The time is the core's clock; the one-shot timer has 16 bits and takes the prescaler that fits. */
+ * 27 (USART). The time is the core's clock; the one-shot timer has 16 bits, eight clocks a count. */
 #ifndef FIELDLING_STM32F1_UART_H
 #define FIELDLING_STM32F1_UART_H
 
@@ -21,7 +21,7 @@
 #define SR_RXNE 0x20u
 #define SR_TC   0x40u
 #define SR_TXE  0x80u
-#define SR_ANY_RX (SR_RXNE | SR_ORE | SR_FE | SR_PE)
+#define SR_ERRORS (SR_ORE | SR_FE | SR_PE)
 
 #define CR1_RE     0x0004u
 #define CR1_TE     0x0008u
@@ -40,30 +40,28 @@
 #define TIM_CNT  0x24u
 #define TIM_PSC  0x28u
 #define TIM_ARR  0x2Cu
-#define TIM_ONE_SHOT 0x000Du /* CEN, URS, OPM */
-#define TIM_FINE_SHIFT   3u  /* 8 clocks a count: up to 7.2 ms at 72 MHz    */
-#define TIM_COARSE_SHIFT 9u  /* 512 clocks a count: up to 466 ms at 72 MHz  */
+#define TIM_STOP     0x000Cu /* URS, OPM      */
+#define TIM_ONE_SHOT 0x000Du /* and CEN       */
+#define TIM_SHIFT    3u
+#define TIM_MOST     0xFFFEu /* 7.2 ms at 72 MHz */
 
 /* In 7-bit formats the parity bit is the eighth: it is taken off. */
 extern uint8_t uart_data_mask;
 
 bool uart_open(uint32_t bit_per_s, uint8_t format);
 
+/* HAL_ERR_ flags of a status with errors. isr. */
+uint8_t uart_err_of(uint32_t sr);
+
 /* Reading SR, then DR clears the error flags. */
 static inline bool uart_rx(uint8_t *octet, uint8_t *err)
 {
     uint32_t sr = REG(BOARD_LINE_UART + USART_SR);
 
-    if (!(sr & SR_ANY_RX))
+    if (!(sr & (SR_RXNE | SR_ORE)))
         return false;
     *octet = (uint8_t)REG(BOARD_LINE_UART + USART_DR) & uart_data_mask;
-    *err = 0;
-    if (sr & SR_PE)
-        *err |= HAL_ERR_PARITY;
-    if (sr & SR_FE)
-        *err |= HAL_ERR_FRAMING;
-    if (sr & SR_ORE)
-        *err |= HAL_ERR_OVERRUN;
+    *err = (sr & SR_ERRORS) ? uart_err_of(sr) : 0;
     return true;
 }
 
@@ -102,22 +100,19 @@ static inline hal_dur_t timer_now(void)
 
 static inline void timer_stop(void)
 {
-    REG(BOARD_TIMER + TIM_CR1) = 0;
+    REG(BOARD_TIMER + TIM_CR1) = TIM_STOP;
     REG(BOARD_TIMER + TIM_SR) = 0;
-    nvic_clear_pending(BOARD_TIMER_IRQ);
 }
 
-/* Longer than the coarse prescaler allows: as long as it allows. */
+/* UG sets the count back and loads ARR; with URS set that is no interrupt. */
 static inline void timer_start(hal_dur_t counts)
 {
-    uint8_t shift = counts >> TIM_FINE_SHIFT > 0xFFFEu ? TIM_COARSE_SHIFT : TIM_FINE_SHIFT;
-    uint32_t n = counts >> shift;
+    uint32_t n = (counts >> TIM_SHIFT) + 1u;
 
-    timer_stop();
-    REG(BOARD_TIMER + TIM_PSC) = (1ul << shift) - 1u;
-    REG(BOARD_TIMER + TIM_ARR) = n > 0xFFFEu ? 0xFFFFu : n + 1u;
-    REG(BOARD_TIMER + TIM_CR1) = TIM_ONE_SHOT & ~1u; /* URS before UG: loading the prescaler is no update event */
+    REG(BOARD_TIMER + TIM_CR1) = TIM_STOP;
+    REG(BOARD_TIMER + TIM_ARR) = n < TIM_MOST ? n : TIM_MOST;
     REG(BOARD_TIMER + TIM_EGR) = 1;
+    REG(BOARD_TIMER + TIM_SR) = 0;
     REG(BOARD_TIMER + TIM_CR1) = TIM_ONE_SHOT;
 }
 

@@ -1,4 +1,5 @@
 /* Clocks, pins, rate and interrupts of the STM32F103. Source: RM0008, chapters 7 to 9 and 27. */
+#include "hal/con_in.h"
 #include "hal/line_uart.h"
 #include "uart.h"
 
@@ -39,18 +40,25 @@ static const struct format formats[HAL_FORMATS] = {
     [HAL_7N2] = {0, 0x1000, 0x7F}, /* no seven-bit frame without parity: refused below */
 };
 
-/* BRR = clock / rate in sixteenths of a divider; at least 16. 0 where the rate cannot be met to 0.3 %. */
+uint8_t uart_err_of(uint32_t sr)
+{
+    uint8_t err = 0;
+
+    if (sr & SR_PE)
+        err |= HAL_ERR_PARITY;
+    if (sr & SR_FE)
+        err |= HAL_ERR_FRAMING;
+    if (sr & SR_ORE)
+        err |= HAL_ERR_OVERRUN;
+    return err;
+}
+
+/* BRR = clock / rate: a divider of sixteen samples a bit in 1/16, at least 1. */
 static uint32_t brr_of(uint32_t clock, uint32_t bit_per_s)
 {
-    uint32_t brr = (clock + bit_per_s / 2u) / bit_per_s;
-    uint32_t got;
-    uint32_t off;
+    uint32_t brr = line_uart_divisor(clock, bit_per_s, 0xFFFFu);
 
-    if (brr < 16u || brr > 0xFFFFu)
-        return 0;
-    got = clock / brr;
-    off = got > bit_per_s ? got - bit_per_s : bit_per_s - got;
-    return off * 100u <= bit_per_s / 10u * 3u ? brr : 0;
+    return brr < 16u ? 0 : brr;
 }
 
 /* This USART has no loop: a loop is refused. */
@@ -99,6 +107,10 @@ void part_init(void)
     uart_driver(false);
     REG(GPIOA_CRL) = BOARD_GPIOA_CRL;
     REG(GPIOA_CRH) = BOARD_GPIOA_CRH;
+    REG(BOARD_TIMER + TIM_PSC) = (1ul << TIM_SHIFT) - 1u;
+    REG(BOARD_TIMER + TIM_CR1) = TIM_STOP;
+    REG(BOARD_TIMER + TIM_EGR) = 1;
+    REG(BOARD_TIMER + TIM_SR) = 0;
     REG(BOARD_TIMER + TIM_DIER) = 1;
     REG(BOARD_CONSOLE_UART + USART_BRR) = brr_of(BOARD_CONSOLE_CLOCK_HZ, BOARD_CONSOLE_RATE);
     REG(BOARD_CONSOLE_UART + USART_CR1) = CR1_UE | CR1_TE | CR1_RE | CR1_RXNEIE;
@@ -120,14 +132,14 @@ void part_console_put(uint8_t octet)
 
 static void console_isr(void)
 {
-    core_interrupted_isr();
+    core_interrupted = true;
     while (REG(BOARD_CONSOLE_UART + USART_SR) & (SR_RXNE | SR_ORE))
-        core_console_isr((uint8_t)REG(BOARD_CONSOLE_UART + USART_DR));
+        con_in_isr((uint8_t)REG(BOARD_CONSOLE_UART + USART_DR));
 }
 
 static void line_isr(void)
 {
-    core_interrupted_isr();
+    core_interrupted = true;
     line_uart_rx_isr();
     if (REG(BOARD_LINE_UART + USART_CR1) & CR1_TXEIE)
         line_uart_tx_isr();
@@ -135,7 +147,7 @@ static void line_isr(void)
 
 static void timer_isr(void)
 {
-    core_interrupted_isr();
+    core_interrupted = true;
     REG(BOARD_TIMER + TIM_SR) = 0;
     line_uart_timer_isr();
 }
