@@ -33,3 +33,17 @@ PROGRAMS += fieldling-hdlc
 fieldling-hdlc_SRC      = boards/posix/fieldling_hdlc.c boards/posix/hdlc_line.c boards/posix/rm_host_board.c \
                           sim/hdlc_words.c $(REMOTE_MODULE) $(HDLC_SRC) $(HDLC_CHIP) $(HOST_STATION)
 fieldling-hdlc_DEFAULTS = $(HDLC_DEFAULTS)
+
+PROGRAMS += fieldling-hdlc-master
+HDLC_SCREEN := $(if $(wildcard /usr/include/ncurses.h /usr/include/*/ncurses.h),master_screen.c,master_screen_none.c)
+fieldling-hdlc-master_SRC      = $(addprefix boards/posix/,fieldling_hdlc_master.c master_commands.c master_config.c report.c \
+                                 hdlc_line.c options.c $(HDLC_SCREEN)) sim/hdlc_primary.c firmware/hdlc/hdlc_8273.c $(HDLC_CHIP) \
+                                 $(HAL_REALTIME)
+fieldling-hdlc-master_LDLIBS   = $(if $(filter master_screen.c,$(HDLC_SCREEN)),-lncurses)
+
+PROGRAMS += fieldling-hdlc-cable
+fieldling-hdlc-cable_SRC = sim/hdlc_cable_main.c sim/hdlc_bits.c sim/hdlc_pcap.c boards/posix/options.c
+
+.PHONY: run-hdlc
+run-hdlc: $(addprefix build/posix/,fieldling-hdlc fieldling-hdlc-master fieldling-hdlc-cable)
+	@sh boards/posix/hdlc_demo.sh
