@@ -376,6 +376,13 @@ def test_console():
         expect("link", os.path.lexists(s.pty), False)
 
 
+def test_the_live_demonstration_ends_well():
+    program = os.path.join(os.environ.get("FIELDLING_BIN", "build/posix"), "fieldling-modbus")
+    run = subprocess.run(["build/posix/modbus-live", program], text=True, stdin=subprocess.DEVNULL,
+                         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=60, check=False)
+    expect(run.stdout, (run.returncode, "50.00 Hz" in run.stdout, ", 0 failed" in run.stdout), (0, True, True))
+
+
 def run_program(*arguments):
     program = os.path.join(os.environ.get("FIELDLING_BIN", "build/posix"), "fieldling-modbus")
     return subprocess.run([program, *arguments], text=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,

@@ -34,3 +34,25 @@ build/test/interop_libmodbus: host_tests/interop_libmodbus.c build/unity/unity.c
 	$(call say,LD,$@)gcc $(WARNINGS) -O1 -g -Ibuild/unity $^ $(LIBMODBUS) -o $@
 build-tests: build/test/interop_libmodbus
 SCRIPT_TESTS += host_tests/interop_libmodbus.py host_tests/interop_modbus.py
+
+# The inverter live, polled by libmodbus.
+build/posix/modbus-live: sim/modbus_live.c boards/common/inverter_map.h
+	@mkdir -p $(@D)
+	$(call say,LD,$@)gcc $(WARNINGS) -D_XOPEN_SOURCE=700 -I. -O2 -g $< $(LIBMODBUS) -o $@
+build-tests: build/posix/modbus-live
+.PHONY: run-modbus
+run-modbus: build/posix/modbus-live build/posix/fieldling-modbus
+	@build/posix/modbus-live build/posix/fieldling-modbus
+
+UNIT_TESTS += test_modbus_inverter
+test_modbus_inverter_SRC      = boards/common/inverter.c boards/common/inverter_store.c boards/common/inverter_modbus.c \
+                                boards/common/inverter_bind.c sim/modbus_client.c sim/modbus_frame.c $(HAL_VIRTUAL) \
+                                $(MB_STATION)
+test_modbus_inverter_DEFAULTS = $(MB_DEFAULTS)
+test_modbus_inverter_CFLAGS   = -DMB_CONFIG='"inverter_mb.h"' -Iboards/common
+
+# The README's tables and example.
+SCRIPT_TESTS_ONCE += host_tests/modbus_readme.py
+.PHONY: modbus-map
+modbus-map:
+	@$(PYTHON) host_tests/modbus_readme.py --write

@@ -380,7 +380,7 @@ static void test_ascii_the_time_between_characters_can_be_configured(void)
     mb_port.octet_ms = 5000; /* [S] 2.5.2.1: 4 to 5 s where the network is wide */
     client.wrong.gap_at = 5;
     client.wrong.gap = 4900 * HV_MS;
-    client.time_out = 10 * HV_S;
+    client.time_out = 10 * (hv_time)HV_S;
     ask(GOOD, ANSWER);
     client.wrong.gap = 5100 * HV_MS;
     mbc_send(&client, request, sizeof request);
