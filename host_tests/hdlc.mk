@@ -15,6 +15,10 @@ UNIT_TESTS += test_hdlc_nrm
 test_hdlc_nrm_SRC      = $(HDLC_SRC) $(HDLC_BUS)
 test_hdlc_nrm_DEFAULTS = $(HDLC_DEFAULTS)
 
+UNIT_TESTS += test_hdlc_8273
+test_hdlc_8273_SRC      = $(HDLC_SRC) $(HDLC_BUS)
+test_hdlc_8273_DEFAULTS = $(HDLC_DEFAULTS)
+
 # Remote modules: the application, on a board of the test's.
 REMOTE_MODULE = $(addprefix boards/common/remote_,module.c document.c log.c check.c) firmware/crc16.c
 REMOTE_TEST   = $(REMOTE_MODULE) $(HDLC_SRC) $(HDLC_BUS) host_tests/remote_board_fake.c

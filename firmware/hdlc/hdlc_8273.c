@@ -38,8 +38,8 @@
 struct hdlc_frame XDATA hdlc_8273_out;
 volatile struct hdlc_8273_counters XDATA hdlc_8273_counters;
 
-/* Two frames received: interrupts fill slot[filling], which is never full; main takes slot[taking]. full[i] is
- * set by interrupts only and cleared by main only, each as its last act on the slot. */
+/* One frame received, one being received: interrupts fill slot[filling], which is never full; main takes
+ * slot[taking]. full[i] is set by interrupts only and cleared by main only, each as its last act on the slot. */
 static struct hdlc_frame XDATA slot[2];
 static volatile bool full[2];
 static uint8_t filling, taking;
@@ -51,6 +51,7 @@ static HOT uint8_t offered;      /* octets the chip has handed over, modulo 256 
 static const uint8_t XDATA *HOT tx_at;
 static HOT uint8_t tx_left;
 static volatile bool sending;
+static volatile bool deaf; /* the receiver is off because we send */
 static uint16_t sending_since;
 
 static uint8_t mode, address_1, address_2;
@@ -105,6 +106,7 @@ static void listen_isr(void) IN_ISR
 {
     uint8_t room;
 
+    deaf = false;
     empty_slot_isr();
     room = (uint8_t)(sizeof slot[0].octets - stored);
     command_isr(RECEIVE_DISABLE);
@@ -210,7 +212,7 @@ void chip_rx_isr(void) IN_ISR
             code = HDLC_RX_UNKNOWN;
     }
     hdlc_8273_counters.rx[code]++;
-    if (sending)
+    if (deaf)
         return;
     if (code == HDLC_RX_GOOD && !by_dma())
         empty_slot_isr(); /* all agree that it is active: the next frame may share this one's flag */
@@ -238,7 +240,9 @@ static void transmit_isr(uint8_t n) IN_ISR
 
     tx_at = hdlc_8273_out.octets + head;
     tx_left = (uint8_t)(n - head);
-    command_isr(RECEIVE_DISABLE);
+    deaf = !(mode & HDLC_8273_LOOP);
+    if (deaf)
+        command_isr(RECEIVE_DISABLE);
     if (by_dma() && tx_left)
         hal_8273_dma_tx_isr(tx_at, tx_left);
     command_isr(TRANSMIT_FRAME);

@@ -3,7 +3,7 @@
  * Layer    hal_8273 -> [hdlc_8273] -> hdlc_nrm; implements chip_rx_isr, chip_tx_isr
  * Source   register map, commands and results of the 8273: DESIGN.md, sources. Where they disagree the driver
  *          depends on neither side; each such place says so.
- * Half duplex: the receiver is off while we send, so our own frame never comes back as a command.
+ * Half duplex: the receiver is off while we send (but in loop-back), so our own frame never comes back as a command.
  * Nothing here waits for the line. Waiting for the chip is bounded by HDLC_8273_POLLS reads of its status;
  * a chip that stays busy longer is set up anew by hdlc_8273_poll() and counted.
  */
@@ -47,7 +47,7 @@ enum hdlc_8273_rx {
     HDLC_RX_RESULTS = 0x0B,   /* a result was not read in time                              */
     HDLC_RX_PARTIAL = 0x0C,   /* good FCS, not a whole number of octets                     */
     HDLC_RX_COUNT = 0x0D,     /* good FCS, but the chip counts other octets than we have    */
-    HDLC_RX_FULL = 0x0E,      /* good, but main has not taken the two before                */
+    HDLC_RX_FULL = 0x0E,      /* good, but main has not taken the one before                */
     HDLC_RX_COUNTERS
 };
 enum hdlc_8273_tx {
