@@ -3,7 +3,7 @@
 MB_STATION  = firmware/crc16.c $(wildcard firmware/modbus/mb_*.c)
 MB_DEFAULTS = $(wildcard firmware/modbus/default_*.c)
 
-MB_UNIT_TESTS = test_modbus_functions test_modbus_line test_modbus_noise
+MB_UNIT_TESTS = test_modbus_functions test_modbus_identification test_modbus_line test_modbus_noise
 define mb_unit_test
 UNIT_TESTS += $1
 $1_SRC      = host_tests/modbus_fixture.c sim/modbus_client.c sim/modbus_frame.c $$(HAL_VIRTUAL) $$(MB_STATION)

@@ -11,7 +11,7 @@ struct fixture fx;
 
 uint8_t coils_13[5], coils_ac[4], coils_big[250], inputs_c4[3], inputs_big[250];
 uint16_t holding_0[32], holding_6b[3], holding_big[125], inputs_8[1], input_regs_big[125];
-uint16_t fifo_4de[32], fifo_bad[32], fifo_short[4], file_3[16], file_4[16], file_9[128];
+uint16_t fifo_4de[32], fifo_bad[32], fifo_short[4], file_3[16], file_4[16], file_9[128], file_10[10002];
 
 static const struct mb_block CODE blocks[] = {
     {MB_COILS, 0x0013, 37, coils_13},
@@ -32,6 +32,7 @@ static const struct mb_block CODE blocks[] = {
     {MB_FILE, 3, 16, file_3},
     {MB_FILE, 4, 16, file_4},
     {MB_FILE, 9, 128, file_9},
+    {MB_FILE, 10, 10002, file_10},
     MB_MAP_END,
 };
 const struct mb_block CODE *mb_map = blocks;

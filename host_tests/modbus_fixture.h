@@ -10,7 +10,8 @@ extern struct mbc client;
 /* The tables. Addresses are those of the examples of [A] and of the source document (spec B6). */
 extern uint8_t coils_13[5], coils_ac[4], coils_big[250], inputs_c4[3], inputs_big[250];
 extern uint16_t holding_0[32], holding_6b[3], holding_big[125], inputs_8[1], input_regs_big[125];
-extern uint16_t fifo_4de[32], fifo_bad[32], fifo_short[4], file_3[16], file_4[16], file_9[128];
+extern uint16_t fifo_4de[32], fifo_bad[32], fifo_short[4], file_3[16], file_4[16], file_9[128],
+    file_10[10002];
 
 /* What the application does. */
 struct fixture {

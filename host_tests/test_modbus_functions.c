@@ -233,6 +233,16 @@ static void write_registers(uint8_t qty, const char *answer)
     mbc_idle(40);
 }
 
+/* 200 registers are 400 octets, which an octet would call 144. */
+static void test_a_count_that_would_overflow_its_octet(void)
+{
+    uint8_t body[7 + 144] = {0x11, 0x10, 0xFF, 0x83, 0x00, 200, 144}, got[MBC_FRAME_MAX];
+    mbc_send(&client, body, sizeof body);
+    TEST_ASSERT_EQUAL(3, mbc_wait(&client, got));
+    TEST_ASSERT_EQUAL_HEX8(0x90, got[1]);
+    TEST_ASSERT_EQUAL_HEX8(0x03, got[2]);
+}
+
 static void test_writing_123_registers(void)
 {
     write_registers(123, "11 10 FF 83 00 7B");
@@ -337,6 +347,16 @@ static void test_reading_many_groups(void)
         const uint8_t group[] = {3, 6, 0, (uint8_t)(i + 1)};
         TEST_ASSERT_EQUAL_HEX8_ARRAY(group, got + 105 + 4 * (i - 1), 4);
     }
+}
+
+static void test_records_end_at_270f(void)
+{
+    file_10[0x270F] = 0x5AA5;
+    ask("11 14 07 06 00 0A 27 0F 00 01", "11 14 04 03 06 5A A5");
+    ask("11 14 07 06 00 0A 27 10 00 01", "11 94 02"); /* there, but records have no such number */
+    ask("11 14 07 06 00 0A 27 0F 00 02", "11 94 02");
+    ask("11 15 09 06 00 0A 27 10 00 01 06 AF", "11 95 02");
+    TEST_ASSERT_EQUAL_HEX16(0, file_10[0x2710]);
 }
 
 static void test_writing_files(void)
@@ -612,6 +632,7 @@ int main(void)
     BOTH(test_writing_1968_bits_is_allowed_1969_is_not);
     BOTH(test_writing_registers);
     BOTH(test_writing_123_registers);
+    BOTH(test_a_count_that_would_overflow_its_octet);
     BOTH(test_a_write_changes_all_or_nothing);
     BOTH(test_the_application_can_refuse_with_any_exception);
     BOTH(test_blocks_without_memory_go_to_the_application);
@@ -619,6 +640,7 @@ int main(void)
     BOTH(test_reading_files);
     BOTH(test_reading_as_much_of_files_as_an_answer_holds);
     BOTH(test_reading_many_groups);
+    BOTH(test_records_end_at_270f);
     BOTH(test_writing_files);
     BOTH(test_writing_a_file_with_the_longest_request);
     BOTH(test_mask_write);

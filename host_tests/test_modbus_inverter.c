@@ -208,6 +208,7 @@ static void test_storing_is_acknowledged_then_busy_then_kept(void)
     hv_set_loop(mb_poll, NULL); /* the application is slow: storing stands still */
     TEST_ASSERT_EQUAL(5, write_register(INV_P_STORE, 1));
     TEST_ASSERT_EQUAL(6, write_register(INV_P_SET_POINT, 1111));
+    TEST_ASSERT_EQUAL_HEX8(0, hv_nv[0]); /* no mark while it is not whole */
     static const uint8_t get_counter[] = {11};
     uint8_t answer[MBC_FRAME_MAX];
     TEST_ASSERT_EQUAL(0, request(get_counter, 1, answer));

@@ -183,10 +183,12 @@ static void test_short_and_long_frames_are_dropped(void)
     }
 }
 
-static void test_rtu_an_address_with_its_crc_alone_is_no_frame(void)
+/* Shorter than any frame, [S] appendix A, though the CRC is right: an address alone, and nothing at all. */
+static void test_rtu_what_is_too_short_is_no_frame(void)
 {
-    ask_raw("11 BF 4C", NULL); /* 3 octets with a right CRC: shorter than any frame, [S] appendix A */
-    TEST_ASSERT_EQUAL(1, mb_diag.counter[MB_BUS_ERROR]);
+    ask_raw("11 7F 4C", NULL);
+    ask_raw("FF FF", NULL);
+    TEST_ASSERT_EQUAL(2, mb_diag.counter[MB_BUS_ERROR]);
     TEST_ASSERT_EQUAL(0, mb_diag.counter[MB_BUS_MESSAGE]);
 }
 
@@ -651,7 +653,7 @@ int main(void)
     RUN_TEST(test_rtu_a_client_may_ask_again_at_once);
     RUN_TEST(test_bad_frames_are_dropped_and_counted);
     RUN_TEST(test_short_and_long_frames_are_dropped);
-    RUN_TEST(test_rtu_an_address_with_its_crc_alone_is_no_frame);
+    RUN_TEST(test_rtu_what_is_too_short_is_no_frame);
     RUN_TEST(test_rtu_256_octets_are_a_frame_257_are_not);
     RUN_TEST(test_nothing_of_ours_is_lost_among_others);
     RUN_TEST(test_lumps_are_told_apart_by_the_other_stations_crc);
