@@ -34,3 +34,22 @@ fieldling-master_SRC = $(addprefix sim/,fieldling_master.c master_ask.c master_c
                                         master_setup.c gsd_read.c port.c) $(SIM_MASTER)
 
 SCRIPT_TESTS += host_tests/dp_master.py host_tests/gsd_pyprofibus.py
+
+# ---- 124 stations: each a copy of one shared object (sim/many.h) -------------------------------------------------
+
+PROGRAMS += fieldling-station.so
+fieldling-station.so_SRC      = boards/posix/dp_many.c $(DP_STATION) $(HAL_VIRTUAL)
+fieldling-station.so_DEFAULTS = $(DP_DEFAULTS)
+fieldling-station.so_CFLAGS   = -fPIC
+fieldling-station.so_LDLIBS   = -shared -Wl,-Bsymbolic
+
+PROGRAMS += fieldling-many
+fieldling-many_SRC    = sim/fieldling_many.c $(SIM_MASTER)
+fieldling-many_LDLIBS = -ldl
+
+BENCHES += bench-many
+bench-many: build/posix/fieldling-many build/posix/fieldling-station.so
+	@build/posix/fieldling-many build/posix/fieldling-station.so bench
+
+SCRIPT_TESTS += host_tests/dp_many.py
+host_tests/dp_many.py_TIMEOUT := 300

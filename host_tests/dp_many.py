@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+"""124 stations on one segment in virtual time: all come up, each exchanges its own data, nobody breaks a rule of the line."""
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import scripted
+
+BIN = Path(os.environ.get("FIELDLING_BIN", "build/posix"))
+# Each copy of the station has the same globals under the same names, on purpose.
+ENVIRONMENT = dict(os.environ, ASAN_OPTIONS=os.environ.get("ASAN_OPTIONS", "") + ":detect_odr_violation=0:detect_leaks=0")
+RATE_93K75, RATE_500K, RATE_12M = 2, 4, 10  # spec A1; 10: firmware/phy_uart/phy_uart.h
+
+
+def many(*arguments):
+    return subprocess.run([str(BIN / "fieldling-many"), str(BIN / "fieldling-station.so"), *map(str, arguments)],
+                          capture_output=True, timeout=110, env=ENVIRONMENT)
+
+
+def bus(stations, cycles, rate):
+    result = many(stations, cycles, rate)
+    output = result.stdout.decode()
+    assert result.returncode == 0, f"exit {result.returncode}: {output}{result.stderr.decode()[:2000]}"
+    words = output.split()
+    return dict(zip(words[::2], map(float, words[1::2])))
+
+
+def good(said, stations, exchanges):
+    assert said["stations"] == said["in_exchange"] == said["exact"] == stations, said
+    assert said["fewest_exchanges"] == exchanges, said
+    assert said["retries"] == said["collisions"] == said["early"] == said["late"] == 0, said
+
+
+def test_124_stations_come_up_and_exchange_their_own_data():
+    # FDL status, diagnosis, parameters, configuration, diagnosis: five cycles, then data
+    good(bus(124, 20, RATE_500K), 124, 15)
+
+
+def test_at_a_slow_and_at_the_fastest_rate():
+    good(bus(124, 8, RATE_93K75), 124, 3)
+    good(bus(124, 20, RATE_12M), 124, 15)
+
+
+def test_the_bus_cycle_is_what_the_octets_take():
+    """A request and its answer of 11 octets each: 2 * 121 T_bit, T_SDR 11 and T_SYN 33: 286 T_bit, 572 us at 500 kbit/s. The
+    cycle is that for each station, exactly."""
+    assert bus(1, 20, RATE_500K)["cycle_ms"] == 0.572
+    assert bus(8, 20, RATE_500K)["cycle_ms"] == 4.576
+    assert bus(124, 20, RATE_500K)["cycle_ms"] == 70.928
+
+
+def test_wrong_usage():
+    for arguments in ((), (0,), (125,), (5, 0), (5, 5, 11)):
+        assert many(*arguments).returncode == 2, arguments
+    assert subprocess.run([str(BIN / "fieldling-many"), "no/such.so", "2"], capture_output=True).returncode == 2
+
+
+if __name__ == "__main__":
+    sys.exit(scripted.run(globals(), __file__))
