@@ -425,6 +425,37 @@ static void modes_that_were_not_asked_for_are_not_supported(void)
     DIAG("10 04 00 02 12 34");
 }
 
+static void faults_of_data_exchange_add_up(void)
+{
+    ask_sap(8, 2, 61, "80 00 00 0B 12 34 05");
+    ask_sap(8, 2, 62, "10 20 10 20");
+    inputs("31 01");
+    control(0x20, 0);
+    ask("68 04 04 68 08 02 6D 01 78 16");
+    STATE(DDLM_WAIT_PRM);
+    DIAG("16 05 00 FF 12 34");
+}
+
+/* The main loop has not come round between the two. */
+static void a_command_that_is_not_supported_does_not_hide_a_wrong_length(void)
+{
+    ask_sap(8, 2, 61, "80 00 00 0B 12 34 05");
+    ask_sap(8, 2, 62, "10 20 10 20");
+    inputs("31 01");
+    request("68 04 04 68 08 02 6D 01 78 16");
+    control(0x20, 0);
+    STATE(DDLM_WAIT_PRM);
+}
+
+static void inputs_and_outputs_cannot_be_read_after_data_exchange(void)
+{
+    ask_sap(8, 2, 61, "40 00 00 00 12 34 00");
+    request("68 05 05 68 88 82 6D 38 3E ED 16");
+    ANSWERED(RS);
+    request("68 05 05 68 88 82 6D 39 3E EE 16");
+    ANSWERED(RS);
+}
+
 static void leaving_data_exchange_ends_sync_and_freeze(void)
 {
     control(0x28, 0);
@@ -544,6 +575,9 @@ int main(void)
     RUN_TEST(a_control_of_another_length_is_ignored);
     RUN_TEST(control_by_srd_is_refused_rs);
     RUN_TEST(modes_that_were_not_asked_for_are_not_supported);
+    RUN_TEST(faults_of_data_exchange_add_up);
+    RUN_TEST(a_command_that_is_not_supported_does_not_hide_a_wrong_length);
+    RUN_TEST(inputs_and_outputs_cannot_be_read_after_data_exchange);
     RUN_TEST(leaving_data_exchange_ends_sync_and_freeze);
     RUN_TEST(outputs_are_never_a_mixture);
     RUN_TEST(a_clear_is_never_lost);

@@ -194,8 +194,10 @@ static void announced_saps_that_are_not_there_are_a_format_error(void)
     request("10 88 02 4D D7 16");
     request("10 08 82 4D D7 16");
     request("68 04 04 68 88 82 4D 0A 61 16"); /* DAE and no SAE */
+    request("10 88 2B 4D 00 16"); /* the FCS would be a SAP */
+    request("68 04 04 68 88 FE 4D 2D 00 16");
     TEST_ASSERT_EQUAL(0, fake.sends);
-    COUNTED(3, format);
+    COUNTED(5, format);
 }
 
 /* Bit 7 another extension octet, bit 6 region or segment address. */
@@ -577,6 +579,13 @@ static void heard_tells_any_own_and_owner_apart_and_forgets(void)
     TEST_ASSERT_EQUAL_HEX8(FDL_HEARD_ANY | FDL_HEARD_OWN | FDL_HEARD_OWNER, fdl_heard());
 }
 
+static void what_was_heard_for_us_is_not_forgotten_over_others(void)
+{
+    request("10 08 02 49 53 16");
+    request("10 09 02 49 54 16");
+    TEST_ASSERT_EQUAL_HEX8(FDL_HEARD_ANY | FDL_HEARD_OWN, fdl_heard());
+}
+
 static void a_broadcast_and_bad_telegrams_are_not_for_us(void)
 {
     fdl_watch(2);
@@ -627,6 +636,18 @@ static void telegrams_back_to_back_on_an_untimed_line_are_all_heard_and_the_last
     hear("10 08 02 49 53 16"); /* at once after our answer */
     finish_request();
     TEST_ASSERT_EQUAL(2, fake.sends);
+}
+
+static void a_reset_forgets_the_telegram_on_its_way(void)
+{
+    fake_silence();
+    hear("10 08 02");
+    fdl_reset(8);
+    hear("49 53 16");
+    finish_request();
+    TEST_ASSERT_EQUAL(0, fake.sends);
+    request("10 08 02 49 53 16");
+    ANSWERED("10 02 08 00 0A 16");
 }
 
 static void counters_begin_at_zero(void)
@@ -687,9 +708,11 @@ int main(void)
     RUN_TEST(lsap_status_without_a_sap_means_the_default_sap);
     RUN_TEST(lsap_status_of_a_sap_that_is_not_active_is_refused_rs);
     RUN_TEST(heard_tells_any_own_and_owner_apart_and_forgets);
+    RUN_TEST(what_was_heard_for_us_is_not_forgotten_over_others);
     RUN_TEST(a_broadcast_and_bad_telegrams_are_not_for_us);
     RUN_TEST(an_octet_before_t_sdr_cancels_the_answer_and_is_counted);
     RUN_TEST(telegrams_back_to_back_on_an_untimed_line_are_all_heard_and_the_last_is_answered);
+    RUN_TEST(a_reset_forgets_the_telegram_on_its_way);
     RUN_TEST(counters_begin_at_zero);
     return UNITY_END();
 }
