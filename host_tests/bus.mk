@@ -9,9 +9,20 @@ PROGRAMS += fieldling-gsd
 fieldling-gsd_SRC    = gsd/gsd_main.c
 fieldling-gsd_CFLAGS = -DBOARD_RATES='"boards/posix/dp_rates.h"'
 
+# What the same device is on each other board: other rates.
+GSD_BOARDS := $(filter-out posix,$(patsubst boards/%/dp_rates.h,%,$(wildcard boards/*/dp_rates.h)))
+GSD_FILES  := $(patsubst %,build/gsd/%/FLDL1234.GSD,$(GSD_BOARDS))
+
+build/gsd/%/FLDL1234.GSD: gsd/gsd_main.c boards/%/dp_rates.h boards/common/dp_test01.h firmware/config.h
+	@mkdir -p $(@D)
+	$(call say,GSD,$@)gcc $(WARNINGS) $(INCLUDES) -DFIELDLING_CONFIG='"dp_test01.h"' \
+	    -DBOARD_RATES='"boards/$*/dp_rates.h"' $< -o $(@D)/gsd && $(@D)/gsd >$@
+
 .PHONY: gsd
-gsd: build/posix/fieldling-gsd
-	@name=$$($< --name) && $< >gsd/$$name && python3 gsd/check gsd/$$name
+gsd: build/posix/fieldling-gsd $(GSD_FILES)
+	@name=$$($< --name) && $< >gsd/$$name && python3 gsd/check gsd/$$name $(GSD_FILES)
+
+all: $(GSD_FILES)
 
 SCRIPT_TESTS_ONCE += host_tests/gsd_check.py
 

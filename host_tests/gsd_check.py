@@ -195,6 +195,31 @@ def test_pyprofibus_reads_parameters_and_configuration():
     assert [bytes(e.getDU()) for e in gsd.getCfgDataElements()] == [b"\x10", b"\x20", b"\x10", b"\x20"]
 
 
+# Board -> header with its clock, the clock's name there, what the UART divides it by before its own divisor, the smallest
+# divisor. From the chips' data sheets: 8052 Timer 2 (32), 16550 (16), STM32F1 USART (BRR 16 at least), PL011 (16, in 1/64).
+CLOCKS = {
+    "87c51fb": ("wiring.h", "FOSC_HZ", 32, 1),
+    "com86": ("hal_board.h", "BOARD_UART_HZ", 16, 1),
+    "bluepill": ("hal_board.h", "BOARD_LINE_CLOCK_HZ", 1, 16),
+    "lm3s6965evb": ("hal_board.h", "BOARD_CORE_HZ", 16 / 64, 64),
+}
+BIT_PER_S = {"9.6": 9600, "19.2": 19200, "45.45": 45450, "93.75": 93750, "187.5": 187500, "500": 500000, "1.5M": 1500000,
+             "3M": 3000000, "6M": 6000000, "12M": 12000000}
+
+
+def test_each_boards_file_has_the_rates_its_clock_can_make():
+    """PROFIBUS allows 0.3 % (spec A1)."""
+    boards = {p.parent.name for p in (TOP / "boards").glob("*/dp_rates.h")} - {"posix"}
+    assert boards == set(CLOCKS), boards
+    for board, (header, name, before, least) in CLOCKS.items():
+        status, output = check(f"build/gsd/{board}/FLDL1234.GSD")
+        assert status == 0, output
+        text = (TOP / f"build/gsd/{board}/FLDL1234.GSD").read_text()
+        clock = int(re.search(rf"#define {name} +(\d+)", (TOP / f"boards/{board}/{header}").read_text()).group(1)) / before
+        can = [r for r, n in BIT_PER_S.items() if round(clock / n) >= least and abs(clock / round(clock / n) - n) <= 0.003 * n]
+        assert re.findall(r"^(.*)_supp=1\r?$", text.split("Auto_Baud")[0], re.M) == can, (board, can)
+
+
 def test_gsdtool_reads_it():
     if not GSDTOOL.exists():
         return "gsdtool is not installed (needs cargo)"

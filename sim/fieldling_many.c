@@ -38,6 +38,20 @@ static struct {
     unsigned max_t_sdr;
 } line;
 
+/* A record for fieldling-mon; NULL: none. */
+static FILE *record;
+
+static void keep(uint64_t start, const uint8_t *octets, unsigned n)
+{
+    if (!record)
+        return;
+    const uint64_t ns = start / 576 * 1000 + start % 576 * 1000 / 576;
+    fprintf(record, "%llu.%09llu", (unsigned long long)(ns / 1000000000), (unsigned long long)(ns % 1000000000));
+    for (unsigned i = 0; i < n; i++)
+        fprintf(record, " %02X", octets[i]);
+    fprintf(record, "\n");
+}
+
 /* ---- the line --------------------------------------------------------------------------------------------------- */
 
 static void on_says(void *of, uint8_t octet, uint64_t start, uint64_t end)
@@ -102,6 +116,7 @@ static void on_send(void *of, const uint8_t *octets, unsigned n)
         tell(&stations[i], octets, ends, n);
     line.request_end = ends[n - 1];
     line.telegrams++;
+    keep(line.now, octets, n);
     line.n = 0;
     line.speaker = NULL;
     if (tg_decode(octets, n, &t) == TG_GOOD && tg_wants_answer(&t))
@@ -114,6 +129,7 @@ static void on_send(void *of, const uint8_t *octets, unsigned n)
     }
     if (line.n) {
         line.telegrams++;
+        keep(line.answer_start, line.octets, line.n);
         judge_t_sdr();
     }
 }
@@ -290,15 +306,26 @@ int main(int argc, char **argv)
     const unsigned baud = argc > 4 ? (unsigned)strtoul(argv[4], NULL, 10) : 4;
     const bool as_bench = argc > 2 && strcmp(argv[2], "bench") == 0;
     if (argc < 3 || (!as_bench && (n < 1 || n > STATIONS || cycles < 1 || baud >= RATES))) {
-        fprintf(stderr, "usage: fieldling-many IMAGE STATIONS [CYCLES [BAUD_RATE_CODE]]   1 to %d stations\n"
+        fprintf(stderr, "usage: fieldling-many IMAGE STATIONS [CYCLES [BAUD_RATE_CODE [RECORD]]]   1 to %d stations\n"
                         "       fieldling-many IMAGE bench\n"
-                        "IMAGE is fieldling-station.so beside this program.\n", STATIONS);
+                        "IMAGE is fieldling-station.so beside this program; RECORD is written for fieldling-mon.\n",
+                STATIONS);
         return 2;
     }
     load_all(image, as_bench ? STATIONS : n);
     if (as_bench)
         return bench();
     begin(n, (uint8_t)baud);
+    if (argc > 5 && !(record = fopen(argv[5], "w"))) {
+        perror(argv[5]);
+        return 2;
+    }
+    if (record)
+        fprintf(record, "# rate %llu\n", 576000000ULL / line.bit);
     run(cycles);
+    if (record && fclose(record) != 0) {
+        perror(argv[5]);
+        return 2;
+    }
     return judge(true) ? 0 : 1;
 }
