@@ -157,7 +157,7 @@ static const struct mb_block *find(char **words, uint32_t *place)
         console_error(table > MB_INPUT_REGS ? "no-such-table" : "address-is-0-to-65535");
         return NULL;
     }
-    for (const struct mb_block *b = mb_map; b->count; b++)
+    for (const struct mb_block *b = mb_map; b->table; b++)
         if (b->table == table && *place >= b->first && *place - b->first < b->count) {
             *place -= b->first;
             return b;

@@ -18,11 +18,14 @@ static struct {
 static bool find(void)
 {
     const struct mb_block CODE *b;
-    for (b = mb_map; b->count; b++) {
-        uint16_t i = (uint16_t)(mb_span.addr - b->first);
+    for (b = mb_map; b->table; b++) {
+        uint16_t i;
+        if (b->table != mb_span.table)
+            continue;
+        i = (uint16_t)(mb_span.addr - b->first);
         if (MB_HAS_FILES && b->table == MB_FILE)
             i = b->first == mb_span.file ? mb_span.addr : b->count;
-        if (b->table == mb_span.table && i < b->count) {
+        if (i < b->count) {
             found.block = b;
             found.offset = i;
             return mb_span.qty <= b->count - i;

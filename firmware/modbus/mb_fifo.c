@@ -14,9 +14,10 @@ uint8_t mb_read_fifo(void)
     const uint16_t pointer = get_u16be(mb_pdu + 1);
     const struct mb_block CODE *queue = mb_map;
     uint8_t exception;
-    while (queue->table != MB_FIFO || queue->first != pointer)
-        if ((++queue)->count == 0)
-            return MB_ILLEGAL_ADDRESS;
+    while (queue->table && (queue->table != MB_FIFO || queue->first != pointer))
+        queue++;
+    if (queue->table == 0)
+        return MB_ILLEGAL_ADDRESS;
     mb_span.table = MB_FIFO;
     mb_span.write = false;
     mb_span.addr = pointer;
