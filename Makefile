@@ -58,7 +58,7 @@ DP_SRC      := $(filter-out $(DP_DEFAULTS),$(DP_ALL))
 DP_STATION  := $(DP_SRC) boards/common/dp_test01_app.c
 
 # The same with a console, for boards.
-CONSOLE_DP = boards/common/main_dp_console.c boards/common/dp_console.c $(DP_STATION)
+CONSOLE_DP = boards/common/main_dp_console.c boards/common/dp_console.c boards/common/line_console.c $(DP_STATION)
 
 include boards/images.mk
 include $(sort $(wildcard sim/*.mk boards/*/board.mk host_tests/*.mk))

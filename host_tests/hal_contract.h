@@ -1,6 +1,7 @@
 /* What a machine tells the contract test about itself, in a header "contract_machine.h" of its own:
  *
  *   CONTRACT_UART_TIMED  1: characters take their time on the line; 0: they are out at once, as in QEMU
+ *   CONTRACT_LOOP, CONTRACT_NV  0 where a model, other than the real part, has no loop or cannot write its flash
  *   CONTRACT_LATE_MS     how late an upcall may be seen: 1 where time is simulated, much more where the host may be busy
  *   CONTRACT_BEGIN()     first call of main(): hal_init() and interrupts on
  *   CONTRACT_STEP()      let time go by: hal_idle() where the machine runs by itself

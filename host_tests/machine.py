@@ -1,4 +1,5 @@
 """A board's image in QEMU as a test sees it: like a Station, its line is a pseudo terminal, its console answers."""
+import queue
 import re
 import shutil
 import tempfile
@@ -12,6 +13,20 @@ BOARDS = {
 }
 
 
+def board_of(path):
+    return "com86" if path.endswith(".bin") else "lm3s6965evb"
+
+
+def qemu(path, console, line, trace=(), events=None, more=()):
+    """The command that runs the image at path; console and line are character devices with id=console and id=line. What
+    COM86 writes into its flash is kept in the file at path."""
+    board = board_of(path)
+    flash = ["-drive", f"if=pflash,format=raw,file={path}"] if board == "com86" else ["-kernel", path]
+    return [*BOARDS[board], *flash, "-display", "none", "-nodefaults", "-monitor", "none", "-net", "none",
+            "-chardev", console, "-serial", "chardev:console", "-chardev", line, "-serial", "chardev:line",
+            *(["-D", events] if events else []), *[word for event in trace for word in ("-trace", event)], *more]
+
+
 class Machine(Station):
     """with Machine("com86", "fieldling-dp") as m: m.pty is the line, m.ask("status")["state"] ... The image is a copy, so
     what the machine writes into its flash stays for the next Machine with flash=m.flash."""
@@ -22,17 +37,7 @@ class Machine(Station):
         self.flash = flash or shutil.copy(f"build/{board}/{image}.{suffix}", self.folder)
         self.redirected = []
         self.events = f"{self.folder}/events"
-        command = [*BOARDS[board]]
-        if board == "com86":
-            command += ["-drive", f"if=pflash,format=raw,file={self.flash}"]
-        else:
-            command += ["-kernel", self.flash]
-        command += ["-display", "none", "-nodefaults", "-monitor", "none", "-net", "none",
-                    "-chardev", "stdio,id=console,signal=off", "-serial", "chardev:console",
-                    "-chardev", "pty,id=line", "-serial", "chardev:line", "-D", self.events]
-        for event in trace:
-            command += ["-trace", event]
-        self._start(command)
+        self._start(qemu(self.flash, "stdio,id=console,signal=off", "pty,id=line", trace, self.events))
         self.wait(lambda: self.redirected, "the line")
         self.pty = self.redirected[0]
         self.wait(self._console_answers, "the console")
@@ -47,7 +52,14 @@ class Machine(Station):
                 self._answers.put(line)
 
     def _console_answers(self):
+        """A machine that starts eats what is typed into it: ask until it answers, then until it has answered it all."""
+        self.process.stdin.write("status\nsync\n")
+        self.process.stdin.flush()
         try:
-            return "state" in self.ask("status") or "mode" in self.ask("status")
-        except AssertionError:
-            return False
+            while not self._answers.get(timeout=1.0).startswith("error=unknown-command"):
+                pass
+            while True:
+                self._answers.get(timeout=0.05)
+        except queue.Empty:
+            pass
+        return self.ask("status") and True

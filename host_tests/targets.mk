@@ -1,7 +1,38 @@
-# The boards: the contract of the port on every machine, images under foreign masters, what it all takes.
+# The boards: the contract of the port on every machine, module tests in QEMU, images under foreign masters.
 
-# ---- the contract of hal.h -------------------------------------------------------------------------------------------
+QEMU_BOARDS := com86 lm3s6965evb
+qemu_suffix  = $(if $(filter com86,$1),bin,elf)
+TARGET_UNITY := -Ihost_tests/target/include -Ihost_tests/target -Ibuild/unity -DUNITY_INCLUDE_CONFIG_H
+
+# ---- the contract of hal.h ---------------------------------------------------------------------------------------------
 
 UNIT_TESTS += hal_contract
 hal_contract_SRC    = host_tests/contract/virtual/peer.c $(HAL_VIRTUAL)
 hal_contract_CFLAGS = -Ihost_tests -Ihost_tests/contract/virtual
+
+com86_CONTRACT       := -DCONTRACT_LOOP=1 -DCONTRACT_NV=1
+lm3s6965evb_CONTRACT := -DCONTRACT_LOOP=0 -DCONTRACT_NV=0
+$(foreach b,$(QEMU_BOARDS),$(eval $(call image,$b,hal_contract,\
+    $($b_PORT) host_tests/hal_contract.c host_tests/target/console.c build/unity/unity.c,\
+    $(TARGET_UNITY) -Ihost_tests -Ihost_tests/contract/board $($b_CONTRACT))))
+
+# ---- the module tests of DP, with the fake port of their own -----------------------------------------------------------
+
+define qemu_unit_test # BOARD,TEST
+$(call image,$1,$2,$($1_START) host_tests/target/$1.c build/unity/unity.c host_tests/$2.c $($2_SRC),\
+    $(TARGET_UNITY) -I. -Ihost_tests -DFIELDLING_CONFIG='"$($2_CONFIG)"',$($2_DEFAULTS),$(notdir $(basename $($2_CONFIG))))
+endef
+$(foreach b,$(QEMU_BOARDS),$(foreach t,$(DP_UNIT_TESTS),$(eval $(call qemu_unit_test,$b,$t))))
+
+$(foreach b,$(QEMU_BOARDS),$(eval $b_TESTS := $(patsubst %,build/$b/%.$(call qemu_suffix,$b),$(DP_UNIT_TESTS) hal_contract)))
+BOARD_IMAGES += $(foreach b,$(QEMU_BOARDS),$($b_TESTS))
+
+# Which tests an image exists for.
+build/qemu_tests: $(foreach b,$(QEMU_BOARDS),$($b_TESTS))
+	@printf '%s\n' $^ >$@
+BOARD_IMAGES += build/qemu_tests
+
+SCRIPT_TESTS_ONCE += host_tests/qemu_units.py host_tests/qemu_dp.py host_tests/qemu_modbus.py
+host_tests/qemu_units.py_TIMEOUT := 300
+host_tests/qemu_dp.py_TIMEOUT    := 300
+host_tests/qemu_modbus.py_TIMEOUT := 300

@@ -1,9 +1,10 @@
 # STM32F103C8 "Blue Pill" (Cortex-M3).
 
 $(eval $(call cortexm_board,bluepill,cortex-m3,stm32f1))
-$(eval $(call image,bluepill,fieldling-dp,$(bluepill_PORT) $(CONSOLE_DP),-DFIELDLING_CONFIG='"dp_test01.h"',$(DP_DEFAULTS)))
+$(eval $(call dp_image,bluepill))
+$(eval $(call modbus_image,bluepill))
 
 build/bluepill/%.bin: build/bluepill/%.elf
 	@arm-none-eabi-objcopy -O binary --remove-section=.nv $< $@
 
-BOARD_IMAGES += build/bluepill/fieldling-dp.bin
+BOARD_IMAGES += build/bluepill/fieldling-dp.bin build/bluepill/fieldling-modbus.bin

@@ -62,8 +62,8 @@ start32:
         loop    1b
         lidt    idtr
         call    main
-2:      hlt
-        jmp     2b
+        pushl   %eax
+        call    pc_exit
 
         .macro  STUB number
         .align  16

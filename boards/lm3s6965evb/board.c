@@ -2,21 +2,12 @@
 #include "hal/cortexm/core.h"
 #include "hal/nv_log.h"
 #include "hal_board.h"
+#include "semihosting.h"
 
 /* No address switches; the image is delivered with address 3 in its non-volatile page, and a master may change it. */
 #define PRESET_ADDRESS 3u
 __attribute__((section(".nv"), used)) static const uint32_t delivered[] = {
     NV_LOG_WORD(0u, PRESET_ADDRESS), NV_LOG_WORD(1u, (uint8_t)~PRESET_ADDRESS)};
-
-#define SYS_EXIT_EXTENDED 0x20
-
-static void semihosting_exit(const uint32_t *block)
-{
-    register uint32_t r0 __asm__("r0") = SYS_EXIT_EXTENDED;
-    register const uint32_t *r1 __asm__("r1") = block;
-
-    __asm__ volatile("bkpt 0xAB" : : "r"(r0), "r"(r1) : "memory");
-}
 
 uint8_t hal_switches(void)
 {
@@ -67,17 +58,14 @@ bool nv_page_erase(void)
     return nv_page_read(0) == 0xFFFFFFFFu;
 }
 
-/* A test machine or debugger with semihosting hears the status; anything else starts over. Without a debugger the break
- * point is a fault, which comes back here: hence the flag. */
+/* Without a debugger the break point is a fault, which comes back here: hence the flag. */
 void hal_reset(uint8_t why)
 {
-    static const uint32_t application_exit = 0x20026u;
     static bool asked;
-    uint32_t block[2] = {application_exit, why};
 
     if (!asked) {
         asked = true;
-        semihosting_exit(block);
+        semihosting_exit(why);
     }
     core_reset();
 }

@@ -8,6 +8,10 @@ enum use { TIMER_OFF, TIMER_SILENCE, TIMER_DRAIN, TIMER_WAKE };
 /* A silence older than this is kept at this age. */
 #define AGE_MOST 0xC0000000u
 
+/* The timer never runs longer than 10 ms: a sleeping main loop sees the milliseconds go by, a clock of few bits is looked
+ * at before it has gone round. */
+#define TIMER_MOST (TIMER_HZ / 100u)
+
 /* Invariants: limit == 0 switches the silence clock off; reported is set from line_silence_isr() until the next octet
  * or limit; while there is something to report, timer_use is not TIMER_OFF or TIMER_WAKE; tx.at[0..tx.left-1] is what has
  * not gone into the transmitter yet. */
@@ -32,7 +36,7 @@ static hal_dur_t char_counts;
 static void start_isr(uint8_t use, hal_dur_t counts)
 {
     timer_use = use;
-    timer_start(counts);
+    timer_start(counts < TIMER_MOST ? counts : TIMER_MOST);
 }
 
 static void stop_isr(void)
@@ -68,14 +72,14 @@ void hal_silence(hal_dur_t d)
         arm_isr();
 }
 
-void line_uart_wake(hal_dur_t counts)
+void line_uart_wake(void)
 {
     hal_dur_t now = timer_now();
 
     if ((hal_dur_t)(now - last_octet) > AGE_MOST)
         last_octet = (hal_dur_t)(now - AGE_MOST);
     if (timer_use == TIMER_OFF)
-        start_isr(TIMER_WAKE, counts);
+        start_isr(TIMER_WAKE, TIMER_MOST);
 }
 
 /* ---- receiver ------------------------------------------------------------------------------------------------------------ */

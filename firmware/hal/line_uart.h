@@ -29,7 +29,7 @@
  *
  *   hal_dur_t timer_now(void)                            free running, counts of hal_dur_t, wraps at 32 bits
  *   void timer_start(hal_dur_t counts)                   one-shot, counts >= 1; restarts if running. Fires `counts` from
- *                      now or a little later; where it cannot count so far, earlier
+ *                      now or a little later; where it cannot count so far, earlier. counts is at most 10 ms
  *   void timer_stop(void)                                an interrupt that still comes does no harm
  *   TIMER_HZ                                             counts a second
  */
@@ -39,10 +39,9 @@ void line_uart_rx_isr(void);
 void line_uart_tx_isr(void);
 void line_uart_timer_isr(void);
 
-/* From hal_idle(), before it sleeps: see to it that the timer interrupts within `counts` unless it runs already, so that
- * the main loop sees time go by. At least once in 2^30 counts, so that a silence never grows too old to be told from a
- * young one. lock. */
-void line_uart_wake(hal_dur_t counts);
+/* From hal_idle(), before it sleeps: there will be a timer interrupt within 10 ms, so that the main loop sees time go by.
+ * At least once in 2^30 counts, so that a silence never grows too old to be told from a young one. lock. */
+void line_uart_wake(void);
 
 /* What divisor gives a rate, rounded; 0 where the rate is then off by more than 0.3 % or the divisor is above `most`.
  * clock [1/s] is the rate at divisor 1, below 2^32 - bit_per_s / 2. main. */

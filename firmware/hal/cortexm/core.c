@@ -12,8 +12,6 @@
 #define AIRCR           0xE000ED0Cu
 #define AIRCR_RESET_REQ 0x05FA0004u
 
-#define WAKE_MS 10u
-
 volatile bool core_interrupted;
 
 static uint32_t clocks;
@@ -78,7 +76,7 @@ void hal_idle(void)
     uint8_t irq = hal_irq_save();
 
     if (!core_interrupted) {
-        line_uart_wake(WAKE_MS * (TIMER_HZ / 1000u));
+        line_uart_wake();
         __asm__ volatile("wfi\n cpsie i\n isb\n cpsid i" : : : "memory");
     }
     core_interrupted = false;
@@ -93,7 +91,7 @@ void hal_con_put(uint8_t octet)
     part_console_put(octet);
 }
 
-/* ---- reset and vectors --------------------------------------------------------------------------------------------------- */
+/* ---- reset ------------------------------------------------------------------------------------------------------------- */
 
 void core_reset(void)
 {
@@ -102,36 +100,8 @@ void core_reset(void)
     }
 }
 
-extern uint32_t data_load[], data_start[], data_end[], bss_start[], bss_end[], stack_bottom[], stack_top[];
-int main(void);
-
-/* Data, zeros, and the stack painted for its high-water mark. */
-void core_start(void)
+void core_exit(int status)
 {
-    const uint32_t *from = data_load;
-    uint32_t *to;
-    uint32_t *sp;
-
-    __asm__ volatile("mov %0, sp" : "=r"(sp));
-    for (to = data_start; to < data_end; to++)
-        *to = *from++;
-    for (to = bss_start; to < bss_end; to++)
-        *to = 0;
-    for (to = stack_bottom; to < sp - 16; to++)
-        *to = 0xA5A5A5A5u;
-    main();
+    hal_reset((uint8_t)status);
     core_reset();
 }
-
-/* A fault is our bug, like a failed ASSERT. */
-static void fault(void)
-{
-    hal_reset(HAL_RESET_ASSERT);
-}
-
-typedef void (*vector)(void);
-extern const vector part_vectors[]; /* of the part, behind the sixteen of the core */
-
-__attribute__((section(".vectors"), used)) static const vector core_vectors[16] = {
-    (vector)(uintptr_t)stack_top, core_start, fault, fault, fault, fault, fault,
-};

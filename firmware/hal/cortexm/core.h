@@ -13,10 +13,7 @@ static inline void nvic_enable(uint8_t irq)
     REG(0xE000E100u + 4u * (irq / 32u)) = 1ul << (irq % 32u);
 }
 
-
-/* Clocks of the core since start, wraps at 32 bits. Must be called at least once in 2^24 clocks: a timer that wakes the
- * main loop must not run longer than CORE_CLOCKS_MOST. lock, isr. */
-#define CORE_CLOCKS_MOST 0x800000ul
+/* Clocks of the core since start, wraps at 32 bits. Must be called at least once in 2^24 clocks. lock, isr. */
 uint32_t core_clocks_isr(void);
 
 /* An interrupt has come since hal_idle() looked. Every handler of a part sets it. */
@@ -24,6 +21,9 @@ extern volatile bool core_interrupted;
 
 /* Start over. Does not return. */
 void core_reset(void) __attribute__((noreturn));
+
+/* main() has returned, or a fault has come (255): the image is a test, or broken. Does not return. */
+void core_exit(int status) __attribute__((noreturn));
 
 /* Clocks, pins and interrupts of the part: from hal_init(), interrupts masked. Implemented by the part. */
 void part_init(void);

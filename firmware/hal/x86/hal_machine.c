@@ -4,8 +4,6 @@
 #include "hal/x86/pc.h"
 #include "hal_board.h"
 
-#define WAKE_COUNTS 11932u /* 10 ms: the main loop sees the milliseconds go by */
-
 static uint16_t last_count;
 static uint32_t clocks;
 static uint32_t last_clocks; /* at the last whole millisecond */
@@ -128,13 +126,18 @@ void hal_init(void)
     last_count = count_isr();
 }
 
+void pc_exit(int status)
+{
+    hal_reset((uint8_t)status);
+}
+
 /* Sleep until an interrupt, unless one has come since the last time: the main loop may not have seen what it brought. */
 void hal_idle(void)
 {
     uint8_t irq = hal_irq_save();
 
     if (!pc_had_irq) {
-        line_uart_wake(WAKE_COUNTS);
+        line_uart_wake();
         __asm__ volatile("sti; hlt" : : : "memory");
         (void)hal_irq_save();
     }

@@ -38,7 +38,6 @@ static inline uint8_t in8(uint16_t port)
 #define PIT_CH2_RATE     0xB4u /* mode 2, low then high octet */
 #define PIT_CH2_LATCH    0x80u
 #define PIT_HZ           1193182ul
-#define PIT_MOST         0x7FFFu /* longest one-shot: somebody must look at channel 2 before it has gone round */
 #define PORT_B           0x61u /* bit 0 gate of channel 2, bit 1 speaker */
 
 /* ---- 16550: offsets from its base ---- */
@@ -87,6 +86,9 @@ static inline uint8_t in8(uint16_t port)
 
 /* The interrupt stubs of start.S call this with the number of the request. */
 void pc_irq_isr(uint32_t irq);
+
+/* main() has returned: the image is a test. Does not return. */
+void pc_exit(int status);
 
 /* Console octets are waiting in the UART. isr. */
 void pc_console_isr(void);

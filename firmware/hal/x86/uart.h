@@ -60,11 +60,9 @@ static inline hal_dur_t timer_now(void)
 
 static inline void timer_start(hal_dur_t counts)
 {
-    uint16_t n = (uint16_t)(counts < PIT_MOST ? counts : PIT_MOST);
-
     out8(PIT_MODE, PIT_CH0_ONE_SHOT);
-    out8(PIT_CH0, (uint8_t)n);
-    out8(PIT_CH0, (uint8_t)(n >> 8));
+    out8(PIT_CH0, (uint8_t)counts);
+    out8(PIT_CH0, (uint8_t)(counts >> 8));
 }
 
 /* A control word without a count: the output stays low and does not rise. */

@@ -101,7 +101,7 @@ static inline void timer_stop(void)
 static inline void timer_start(hal_dur_t counts)
 {
     REG(BOARD_TIMER + GPTM_CTL) = GPTM_STOP;
-    REG(BOARD_TIMER + GPTM_ILR) = counts < CORE_CLOCKS_MOST ? counts : CORE_CLOCKS_MOST;
+    REG(BOARD_TIMER + GPTM_ILR) = counts;
     REG(BOARD_TIMER + GPTM_CTL) = GPTM_RUN;
 }
 
