@@ -35,7 +35,8 @@ static void octets(const char *start, const uint8_t *o, unsigned n)
 
 static void identity(void)
 {
-    printf("; %s %s. Made by `make gsd` from the header its firmware is compiled from.\r\n", DEV_VENDOR, DEV_MODEL);
+    printf("; %s %s. Made by `make gsd` from the header its firmware is compiled from.\r\n", DEV_VENDOR,
+           DEV_MODEL);
     printf("#Profibus_DP\r\n");
     number("GSD_Revision", 3);
     text("Vendor_Name", DEV_VENDOR);
@@ -87,10 +88,13 @@ static void user_parameters(void)
     uint8_t defaults[DEV_USER_PRM_MAX + 1] = {0};
     int id = 0;
     printf("PrmText=1\r\nText(0)=\"off\"\r\nText(1)=\"on\"\r\nEndPrmText\r\n");
-#define DESCRIBE(meaning, type, value, range, texts)                                                            \
-    printf("ExtUserPrmData=%d \"%s\"\r\n%s %d %s\r\n%sEndExtUserPrmData\r\n", ++id, meaning, type, value, range, texts);
-#define DESCRIBE_BIT(octet, bit, value, meaning)   DESCRIBE(meaning, "Bit(" #bit ")", value, "0-1", "Prm_Text_Ref=1\r\n")
-#define DESCRIBE_OCTET(octet, value, min, max, meaning) DESCRIBE(meaning, "Unsigned8", value, #min "-" #max, "")
+#define DESCRIBE(meaning, type, value, range, texts)                                                         \
+    printf("ExtUserPrmData=%d \"%s\"\r\n%s %d %s\r\n%sEndExtUserPrmData\r\n", ++id, meaning, type, value,    \
+           range, texts);
+#define DESCRIBE_BIT(octet, bit, value, meaning)                                                             \
+    DESCRIBE(meaning, "Bit(" #bit ")", value, "0-1", "Prm_Text_Ref=1\r\n")
+#define DESCRIBE_OCTET(octet, value, min, max, meaning)                                                      \
+    DESCRIBE(meaning, "Unsigned8", value, #min "-" #max, "")
     DEV_USER_PRM(DESCRIBE_BIT, DESCRIBE_OCTET)
 
 #define DEFAULT_BIT(octet, bit, value, meaning)        defaults[octet] |= (uint8_t)((value) << (bit));
@@ -117,11 +121,11 @@ static void modules(void)
     number("Max_Output_Len", DEV_OUTPUT_MAX);
     number("Max_Data_Len", DEV_INPUT_MAX + DEV_OUTPUT_MAX);
     number("Modul_Offset", 1);
-#define MODULE(name, in, out, ...)                                                                              \
-    {                                                                                                           \
-        static const uint8_t identifier[] = {__VA_ARGS__};                                                      \
-        octets("Module=\"" name "\" ", identifier, sizeof identifier);                                          \
-        printf("%d\r\nPreset=1\r\nEndModule\r\n", ++reference);                                                 \
+#define MODULE(name, in, out, ...)                                                                           \
+    {                                                                                                        \
+        static const uint8_t identifier[] = {__VA_ARGS__};                                                   \
+        octets("Module=\"" name "\" ", identifier, sizeof identifier);                                       \
+        printf("%d\r\nPreset=1\r\nEndModule\r\n", ++reference);                                              \
     }
     DEV_MODULES(MODULE)
 }

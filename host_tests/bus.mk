@@ -26,10 +26,14 @@ all: $(GSD_FILES)
 
 SCRIPT_TESTS_ONCE += host_tests/gsd_check.py
 
+UNIT_TESTS += test_gsd_rates
+test_gsd_rates_SRC      = boards/posix/dp_many.c $(DP_STATION) $(HAL_VIRTUAL)
+test_gsd_rates_DEFAULTS = $(DP_DEFAULTS)
+
 # ---- analyzer ---------------------------------------------------------------------------------------------------
 
-MON = $(addprefix sim/,mon_split.c mon_record.c mon_pair.c mon_view.c mon_details.c mon_other.c mon_stats.c mon_plot.c \
-                       mon_pcapng.c) sim/telegram.c
+MON = $(addprefix sim/,mon_split.c mon_record.c mon_pair.c mon_view.c mon_details.c mon_other.c mon_modbus.c mon_stats.c \
+                       mon_plot.c mon_pcapng.c) sim/telegram.c
 
 PROGRAMS += fieldling-mon
 fieldling-mon_SRC    = sim/fieldling_mon.c sim/port.c $(MON)

@@ -3,6 +3,7 @@
 import os
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import scripted
@@ -48,6 +49,20 @@ def test_the_bus_cycle_is_what_the_octets_take():
     assert bus(1, 20, RATE_500K)["cycle_ms"] == 0.572
     assert bus(8, 20, RATE_500K)["cycle_ms"] == 4.576
     assert bus(124, 20, RATE_500K)["cycle_ms"] == 70.928
+
+
+def test_the_analyzer_agrees():
+    """The record of four stations, each telegram with its exact times: T_SDR 11 T_bit, T_SYN before each request."""
+    with tempfile.TemporaryDirectory() as folder:
+        record = Path(folder) / "many.rec"
+        assert many(4, 12, RATE_500K, record).returncode == 0
+        result = subprocess.run([str(BIN / "fieldling-mon"), "-q", "--summary", str(record)], capture_output=True, timeout=30)
+        lines = result.stdout.decode().splitlines()
+        assert result.returncode == 0 and "0 requests without T_SYN; 0 wrong" in lines[0], lines
+        for address, line in zip(range(1, 5), lines[2:]):
+            # 12 questions each, two acknowledged; 7 exchanges: 6 cycles of 4 * 572 us
+            assert line.split() == [str(address), "12", "12", "2", "0", "0", "0", "11.00/", "11.00/", "11.00", "2.29/",
+                                    "2.29/", "2.29"], line
 
 
 def test_wrong_usage():

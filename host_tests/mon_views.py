@@ -256,7 +256,7 @@ def test_the_plot_is_a_picture():
         mon("-q", "--plot", path, "-", record=EXCHANGE, status=0)
         root = tree.parse(path).getroot()
         texts = [t.text for t in root.iter("{http://www.w3.org/2000/svg}text")]
-        assert "station 2" in texts and "station 3" in texts, texts
+        assert "master 2" in texts and "station 3" in texts, texts
         assert "T_SDR of 3 answers [T_bit]" in texts, texts
         # the last cycles: from the first exchange to the last, two requests, a retry and two answers: 5 bars
         colors = [r.get("fill") for r in root.iter("{http://www.w3.org/2000/svg}rect")]
@@ -295,6 +295,43 @@ def test_modbus_rtu_and_ascii():
     assert [line.split(" ", 2)[2] for line in lines] == [
         "0 0 -> 10 MB req. Read Coils", "0 10 -> 0 MB res. Read Coils, exception 02, illegal data address",
         "1 wrong: LRC is 74, right is 73"]
+
+
+def crc16(octets):
+    """Modbus over serial line, 6.2.2, bit by bit; low octet first on the line."""
+    crc = 0xFFFF
+    for octet in octets:
+        crc ^= octet
+        for _ in range(8):
+            crc = crc >> 1 ^ (0xA001 if crc & 1 else 0)
+    return bytes((crc & 255, crc >> 8))
+
+
+def test_modbus_content():
+    """The examples of the application protocol V1.1b3, chapter 6; the answer 20 ms after the end of its request."""
+    assert crc16(bytes.fromhex("02 07")) == bytes.fromhex("41 12")  # spec B1
+
+    def details(request, answer):
+        lines, at = ["# rate 9600"], 1.0
+        for text in (request, answer):
+            octets = bytes.fromhex("11" + text)
+            octets += crc16(octets)
+            lines.append(f"{at:.6f} {octets.hex(' ')}")
+            at += len(octets) * 11 / 9600 + 0.020
+        return mon("--modbus", "rtu", "-v", "-", record="\n".join(lines) + "\n", status=0)
+
+    expect(details("01 00 13 00 13", "01 03 CD 6B 05"), "address 19", "quantity 19",
+           "bits, first on the left 10110011 11010110 10100000", "response time 20.000 ms")
+    expect(details("03 00 6B 00 03", "03 06 02 2B 00 00 00 64"), "registers 555 0 100")
+    expect(details("05 00 AC FF 00", "05 00 AC FF 00"), "address 172", "coil ON")
+    expect(details("06 00 01 00 03", "06 00 01 00 03"), "address 1", "value 3")
+    expect(details("0F 00 13 00 0A 02 CD 01", "0F 00 13 00 0A"), "quantity 10", "bits, first on the left 10110011 10000000")
+    expect(details("10 00 01 00 02 04 00 0A 01 02", "10 00 01 00 02"), "address 1", "quantity 2", "registers 10 258")
+    expect(details("16 00 04 00 F2 00 25", "16 00 04 00 F2 00 25"), "address 4", "and mask 00 F2", "or mask 00 25")
+    expect(details("17 00 03 00 06 00 0E 00 03 06 00 FF 00 FF 00 FF", "17 0C 00 FE 0A CD 00 01 00 03 00 0D 00 FF"),
+           "read address 3", "read quantity 6", "write address 14", "registers 255 255 255", "registers 254 2765 1 3 13 255")
+    expect(details("08 00 00 A5 37", "08 00 00 A5 37"), "sub-function 0", "data A5 37")
+    expect(details("2B 0E 01 00", "2B 0E 01 01 00 00 01 00 02 41 42"), "data 0E 01 00")
 
 
 def fcs16(octets):

@@ -81,8 +81,8 @@ static void each_format_is_decoded(void)
 
 static void a_body_that_does_not_suit_its_format_is_not_encoded(void)
 {
-    static const uint8_t wrong[][2] = {{0x10, 2}, {0x10, 4},   {0x68, 3}, {0x68, 250}, {0xA2, 10},
-                                       {0xA2, 12}, {0xDC, 3},  {0xDC, 1}, {0xE5, 1},   {0x16, 3}};
+    static const uint8_t wrong[][2] = {{0x10, 2},  {0x10, 4}, {0x68, 3}, {0x68, 250}, {0xA2, 10},
+                                       {0xA2, 12}, {0xDC, 3}, {0xDC, 1}, {0xE5, 1},   {0x16, 3}};
     for (unsigned i = 0; i < sizeof wrong / 2; i++)
         TEST_ASSERT_EQUAL(0, pa_encode(wrong[i][0], body, wrong[i][1], frame));
     TEST_ASSERT_EQUAL_HEX8(0x55, frame[0]);
@@ -114,12 +114,12 @@ static unsigned with_crc(unsigned n)
 static void broken_length_rules_are_rejected_though_the_crc_is_right(void)
 {
     static const uint8_t start[][10] = {
-        {0x68, 5, 6, 0x68, 0x88, 0x82, 0x6D, 0x3C, 0x3E},    /* LE != LEr       */
-        {0x68, 4, 4, 0x68, 0x88, 0x82, 0x6D, 0x3C, 0x3E},    /* LE too small    */
-        {0x68, 6, 6, 0x68, 0x88, 0x82, 0x6D, 0x3C, 0x3E},    /* LE too large    */
-        {0x68, 5, 5, 0x10, 0x88, 0x82, 0x6D, 0x3C, 0x3E},    /* no second SDL2  */
-        {0x10, 1, 2, 0x49, 0, 0, 0, 0, 0},                   /* SDL1 with data  */
-        {0xE5, 1, 2, 0x49, 0, 0, 0, 0, 0},                   /* acknowledge with data */
+        {0x68, 5, 6, 0x68, 0x88, 0x82, 0x6D, 0x3C, 0x3E}, /* LE != LEr       */
+        {0x68, 4, 4, 0x68, 0x88, 0x82, 0x6D, 0x3C, 0x3E}, /* LE too small    */
+        {0x68, 6, 6, 0x68, 0x88, 0x82, 0x6D, 0x3C, 0x3E}, /* LE too large    */
+        {0x68, 5, 5, 0x10, 0x88, 0x82, 0x6D, 0x3C, 0x3E}, /* no second SDL2  */
+        {0x10, 1, 2, 0x49, 0, 0, 0, 0, 0},                /* SDL1 with data  */
+        {0xE5, 1, 2, 0x49, 0, 0, 0, 0, 0},                /* acknowledge with data */
     };
     for (unsigned i = 0; i < sizeof start / sizeof start[0]; i++) {
         memcpy(frame, start[i], 9);

@@ -46,7 +46,8 @@ static void keep(uint64_t start, const uint8_t *octets, unsigned n)
     if (!record)
         return;
     const uint64_t ns = start / 576 * 1000 + start % 576 * 1000 / 576;
-    fprintf(record, "%llu.%09llu", (unsigned long long)(ns / 1000000000), (unsigned long long)(ns % 1000000000));
+    fprintf(record, "%llu.%09llu", (unsigned long long)(ns / 1000000000),
+            (unsigned long long)(ns % 1000000000));
     for (unsigned i = 0; i < n; i++)
         fprintf(record, " %02X", octets[i]);
     fprintf(record, "\n");
@@ -195,13 +196,25 @@ static void begin(unsigned n, uint8_t baud)
     line.max_t_sdr = stations[0].is->max_t_sdr(baud);
     for (unsigned i = 0; i < n; i++) {
         stations[i].is->power_on(stations[i].address, baud, on_says, &stations[i]);
-        slaves[i] = (struct dp_slave){.address = stations[i].address, .ident = 0x1234, .station_status = 0x88, .wd1 = 255,
-                                      .wd2 = 2, .min_t_sdr = 11, .cfg_n = 4, .cfg = {0x10, 0x20, 0x10, 0x20}, .out_n = 2,
+        slaves[i] = (struct dp_slave){.address = stations[i].address,
+                                      .ident = 0x1234,
+                                      .station_status = 0x88,
+                                      .wd1 = 255,
+                                      .wd2 = 2,
+                                      .min_t_sdr = 11,
+                                      .cfg_n = 4,
+                                      .cfg = {0x10, 0x20, 0x10, 0x20},
+                                      .out_n = 2,
                                       .in_n = 2};
     }
-    m = (struct dp_master){.ini = {.address = MASTER, .bit = line.bit, .slot = (line.max_t_sdr + 22) * line.bit,
-                                   .gap = 33 * line.bit, .send = on_send},
-                           .slaves = slaves, .slaves_n = n, .before = before};
+    m = (struct dp_master){.ini = {.address = MASTER,
+                                   .bit = line.bit,
+                                   .slot = (line.max_t_sdr + 22) * line.bit,
+                                   .gap = 33 * line.bit,
+                                   .send = on_send},
+                           .slaves = slaves,
+                           .slaves_n = n,
+                           .before = before};
     dpm_begin(&m);
     everybody_until(50 * line.bit);
 }
@@ -252,14 +265,16 @@ static bool judge(bool aloud)
         uint16_t exchanges, foreign;
         stations[i].is->look(&state, &exchanges, &foreign);
         in_exchange += state == 3 && slaves[i].state == DP_EXCHANGE && slaves[i].starts == 1;
-        alone += exchanges == (uint16_t)slaves[i].exchanges && slaves[i].lost + slaves[i].wrong + slaves[i].refusals == 0;
+        alone += exchanges == (uint16_t)slaves[i].exchanges &&
+                 slaves[i].lost + slaves[i].wrong + slaves[i].refusals == 0;
         fewest = slaves[i].exchanges < fewest ? slaves[i].exchanges : fewest;
     }
     if (aloud)
-        printf("stations %u in_exchange %u exact %u fewest_exchanges %u cycle_ms %.3f retries %u collisions %lu early %lu "
+        printf("stations %u in_exchange %u exact %u fewest_exchanges %u cycle_ms %.3f retries %u collisions "
+               "%lu early %lu "
                "late %lu\n",
-               stations_n, in_exchange, alone, fewest, (double)m.cycle_time / 576000, m.ini.resent, line.collisions,
-               line.early, line.late);
+               stations_n, in_exchange, alone, fewest, (double)m.cycle_time / 576000, m.ini.resent,
+               line.collisions, line.early, line.late);
     return in_exchange == stations_n && alone == stations_n && m.ini.resent == 0 &&
            line.collisions + line.early + line.late == 0;
 }
@@ -285,8 +300,9 @@ static int bench(void)
 {
     static const unsigned sizes[] = {1, 2, 4, 8, 16, 32, 64, 124};
     double first = 0, per = 0;
-    printf("Many stations on one segment in virtual time, 500 kbit/s, telegrams of 11 octets (processor time):\n"
-           "  stations   us/telegram   ns/telegram and further station\n");
+    printf(
+        "Many stations on one segment in virtual time, 500 kbit/s, telegrams of 11 octets (processor time):\n"
+        "  stations   us/telegram   ns/telegram and further station\n");
     for (unsigned i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         per = measure(sizes[i], 200000 / sizes[i] + 8 * sizes[i]);
         first = i ? first : per;
@@ -306,9 +322,10 @@ int main(int argc, char **argv)
     const unsigned baud = argc > 4 ? (unsigned)strtoul(argv[4], NULL, 10) : 4;
     const bool as_bench = argc > 2 && strcmp(argv[2], "bench") == 0;
     if (argc < 3 || (!as_bench && (n < 1 || n > STATIONS || cycles < 1 || baud >= RATES))) {
-        fprintf(stderr, "usage: fieldling-many IMAGE STATIONS [CYCLES [BAUD_RATE_CODE [RECORD]]]   1 to %d stations\n"
-                        "       fieldling-many IMAGE bench\n"
-                        "IMAGE is fieldling-station.so beside this program; RECORD is written for fieldling-mon.\n",
+        fprintf(stderr,
+                "usage: fieldling-many IMAGE STATIONS [CYCLES [BAUD_RATE_CODE [RECORD]]]   1 to %d stations\n"
+                "       fieldling-many IMAGE bench\n"
+                "IMAGE is fieldling-station.so beside this program; RECORD is written for fieldling-mon.\n",
                 STATIONS);
         return 2;
     }

@@ -7,36 +7,52 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char help[] =
-    "fieldling-master: a PROFIBUS-DP master.\n"
-    "\n"
-    "usage: fieldling-master --line PATH [OPTIONS] COMMAND\n"
-    "\n"
-    "  cyclic [FILE]          class 1: serve the slaves of FILE (sim/master_setup.h) or of --slave, until Ctrl-C.\n"
-    "                         Commands on standard input: out SLAVE HEX..., sync|unsync|freeze|unfreeze [GROUP],\n"
-    "                         clear, operate, diag SLAVE, quit\n"
-    "  live-list              who answers FDL Status\n"
-    "  diag STATION           Slave_Diag in words\n"
-    "  get-cfg | rd-inp | rd-outp | ident STATION\n"
-    "  lsap STATION SAP       LSAP status\n"
-    "  set-address STATION NEW IDENT [lock]\n"
-    "\n"
-    "  --line PATH            pty or serial line\n"
-    "  --rate N               bit/s (500000)\n"
-    "  --address N            of this master (2)\n"
-    "  --slot MS              how long an answer may take to begin (30)\n"
-    "  --retries N            (1)\n"
-    "  --slave N=FILE.GSD     a slave and its GSD file, once for each; --module NAME behind it: not the preset modules\n"
-    "  --cycle MS             shortest bus cycle (10)\n"
-    "  --seconds N, --cycles N  end after so long\n"
-    "  --clear                begin in Clear, not in Operate\n"
-    "  --json                 one JSON object a line\n"
-    "  --record FILE          keep what is said, for fieldling-mon\n"
-    "\n"
-    "Exit status: 0; 1 refused, or not all slaves exchange data; 2 wrong usage; 3 no answer; 4 the line has gone.\n";
+static const char help[] = "fieldling-master: a PROFIBUS-DP master.\n"
+                           "\n"
+                           "usage: fieldling-master --line PATH [OPTIONS] COMMAND\n"
+                           "\n"
+                           "  cyclic [FILE]          class 1: serve the slaves of FILE (sim/master_setup.h) "
+                           "or of --slave, until Ctrl-C.\n"
+                           "                         Commands on standard input: out SLAVE HEX..., "
+                           "sync|unsync|freeze|unfreeze [GROUP],\n"
+                           "                         clear, operate, diag SLAVE, quit\n"
+                           "  live-list              who answers FDL Status\n"
+                           "  diag STATION           Slave_Diag in words\n"
+                           "  get-cfg | rd-inp | rd-outp | ident STATION\n"
+                           "  lsap STATION SAP       LSAP status\n"
+                           "  set-address STATION NEW IDENT [lock]\n"
+                           "\n"
+                           "  --line PATH            pty or serial line\n"
+                           "  --rate N               bit/s (500000)\n"
+                           "  --address N            of this master (2)\n"
+                           "  --slot MS              how long an answer may take to begin (30)\n"
+                           "  --retries N            (1)\n"
+                           "  --slave N=FILE.GSD     a slave and its GSD file, once for each; --module NAME "
+                           "behind it: not the preset modules\n"
+                           "  --cycle MS             shortest bus cycle (10)\n"
+                           "  --seconds N, --cycles N  end after so long\n"
+                           "  --clear                begin in Clear, not in Operate\n"
+                           "  --json                 one JSON object a line\n"
+                           "  --record FILE          keep what is said, for fieldling-mon\n"
+                           "\n"
+                           "Exit status: 0; 1 refused, or not all slaves exchange data; 2 wrong usage; 3 no "
+                           "answer; 4 the line has gone.\n";
 
-enum { OPT_LINE = 256, OPT_RATE, OPT_ADDRESS, OPT_SLOT, OPT_RETRIES, OPT_SLAVE, OPT_MODULE, OPT_CYCLE, OPT_SECONDS,
-       OPT_CYCLES, OPT_CLEAR, OPT_JSON, OPT_RECORD };
+enum {
+    OPT_LINE = 256,
+    OPT_RATE,
+    OPT_ADDRESS,
+    OPT_SLOT,
+    OPT_RETRIES,
+    OPT_SLAVE,
+    OPT_MODULE,
+    OPT_CYCLE,
+    OPT_SECONDS,
+    OPT_CYCLES,
+    OPT_CLEAR,
+    OPT_JSON,
+    OPT_RECORD
+};
 
 static struct setup setup = {.address = 2, .rate = 500000};
 static struct master_options o = {.cycle_ms = 10};
@@ -126,12 +142,21 @@ static void take(int option, char *value)
 
 static void read_options(int argc, char **argv)
 {
-    static const struct option options[] = {
-        {"line", 1, 0, OPT_LINE},     {"rate", 1, 0, OPT_RATE},       {"address", 1, 0, OPT_ADDRESS},
-        {"slot", 1, 0, OPT_SLOT},     {"retries", 1, 0, OPT_RETRIES}, {"slave", 1, 0, OPT_SLAVE},
-        {"module", 1, 0, OPT_MODULE}, {"cycle", 1, 0, OPT_CYCLE},     {"seconds", 1, 0, OPT_SECONDS},
-        {"cycles", 1, 0, OPT_CYCLES}, {"clear", 0, 0, OPT_CLEAR},     {"json", 0, 0, OPT_JSON},
-        {"record", 1, 0, OPT_RECORD}, {"help", 0, 0, 'h'},            {0}};
+    static const struct option options[] = {{"line", 1, 0, OPT_LINE},
+                                            {"rate", 1, 0, OPT_RATE},
+                                            {"address", 1, 0, OPT_ADDRESS},
+                                            {"slot", 1, 0, OPT_SLOT},
+                                            {"retries", 1, 0, OPT_RETRIES},
+                                            {"slave", 1, 0, OPT_SLAVE},
+                                            {"module", 1, 0, OPT_MODULE},
+                                            {"cycle", 1, 0, OPT_CYCLE},
+                                            {"seconds", 1, 0, OPT_SECONDS},
+                                            {"cycles", 1, 0, OPT_CYCLES},
+                                            {"clear", 0, 0, OPT_CLEAR},
+                                            {"json", 0, 0, OPT_JSON},
+                                            {"record", 1, 0, OPT_RECORD},
+                                            {"help", 0, 0, 'h'},
+                                            {0}};
     int option;
     while ((option = getopt_long(argc, argv, "h", options, NULL)) != -1)
         take(option, optarg);

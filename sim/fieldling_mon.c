@@ -34,7 +34,18 @@ static const char help[] =
     "\n"
     "Exit status: 0; 1 a telegram was wrong; 2 wrong usage or unreadable input.\n";
 
-enum { OPT_VIEW = 256, OPT_RATE, OPT_FORMAT, OPT_GAP, OPT_PA, OPT_MODBUS, OPT_HDLC, OPT_SUMMARY, OPT_PLOT, OPT_RECORD };
+enum {
+    OPT_VIEW = 256,
+    OPT_RATE,
+    OPT_FORMAT,
+    OPT_GAP,
+    OPT_PA,
+    OPT_MODBUS,
+    OPT_HDLC,
+    OPT_SUMMARY,
+    OPT_PLOT,
+    OPT_RECORD
+};
 
 static struct {
     bool command, hex, verbose, summary, rate_fixed;

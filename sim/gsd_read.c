@@ -91,7 +91,8 @@ static const char *take_module(struct reader *r, const char *value)
         return "more modules than this program holds (64)";
     r->module = &r->to->modules[r->to->modules_n++];
     take_text(value, r->module->name, sizeof r->module->name);
-    return take_octets(end + 1, r->module->cfg, &r->module->cfg_n) ? NULL : "Module: octets 0 to 255 are expected";
+    return take_octets(end + 1, r->module->cfg, &r->module->cfg_n) ? NULL
+                                                                   : "Module: octets 0 to 255 are expected";
 }
 
 /* Ext_User_Prm_Data_Const(first)=octets */
@@ -111,7 +112,8 @@ static const char *take_constants(struct reader *r, const char *value)
 static const char *take_data(struct reader *r, const char *value)
 {
     r->to->user_prm_n = 0;
-    return take_octets(value, r->to->user_prm, &r->to->user_prm_n) ? NULL : "User_Prm_Data: octets are expected";
+    return take_octets(value, r->to->user_prm, &r->to->user_prm_n) ? NULL
+                                                                   : "User_Prm_Data: octets are expected";
 }
 
 static bool yes(const char *value)

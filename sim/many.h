@@ -14,8 +14,8 @@
 struct many_station {
     /* Power up with these address switches and that Baud_rate code; says() is called for each octet it sends, with the
      * time of its start bit and of the end of its stop bit. */
-    void (*power_on)(uint8_t address, uint8_t baud, void (*says)(void *of, uint8_t octet, uint64_t start, uint64_t end),
-                     void *of);
+    void (*power_on)(uint8_t address, uint8_t baud,
+                     void (*says)(void *of, uint8_t octet, uint64_t start, uint64_t end), void *of);
     /* An octet will have arrived at time t, not before the station's now. */
     void (*hears)(uint64_t t, uint8_t octet);
     /* Let the station live until t. */

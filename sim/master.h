@@ -20,7 +20,8 @@ int master_ask(struct master_line *l, struct ini *ini, const struct master_optio
 bool master_knows(const char *verb);
 
 /* Class 1, until told to stop. -> exit status. */
-int master_cyclic(struct master_line *l, struct setup *s, const struct ini *ini, const struct master_options *o);
+int master_cyclic(struct master_line *l, struct setup *s, const struct ini *ini,
+                  const struct master_options *o);
 extern volatile bool master_stop; /* set by a signal */
 
 /* What is said: one JSON object, or "name: value" lines. say_begin(), say_...(), say_end(). */

@@ -72,8 +72,9 @@ static unsigned set_bits(uint8_t octet, const char *const names[8], const char *
 
 static int diag(uint8_t station)
 {
-    static const char *const s1[8] = {"Station_Non_Existent", "Station_Not_Ready", "Cfg_Fault", "Ext_Diag", "Not_Supported",
-                                      "Invalid_Slave_Response", "Prm_Fault", "Master_Lock"};
+    static const char *const s1[8] = {
+        "Station_Non_Existent", "Station_Not_Ready",      "Cfg_Fault", "Ext_Diag",
+        "Not_Supported",        "Invalid_Slave_Response", "Prm_Fault", "Master_Lock"};
     static const char *const s2[8] = {"Prm_Req",     "Stat_Diag", NULL, "WD_On",
                                       "Freeze_Mode", "Sync_Mode", NULL, "Deactivated"};
     static const char *const s3[8] = {[7] = "Ext_Diag_Overflow"};
@@ -85,10 +86,12 @@ static int diag(uint8_t station)
     if (status != M_OK)
         return status;
     if (a->sd == TG_SC || a->n < 6) {
-        fprintf(stderr, "fieldling-master: station %u: a diagnosis of %u octets, 6 at least\n", station, a->n);
+        fprintf(stderr, "fieldling-master: station %u: a diagnosis of %u octets, 6 at least\n", station,
+                a->n);
         return M_REFUSED;
     }
-    const unsigned n = set_bits(a->data[2], s3, names, set_bits(a->data[1], s2, names, set_bits(a->data[0], s1, names, 0)));
+    const unsigned n =
+        set_bits(a->data[2], s3, names, set_bits(a->data[1], s2, names, set_bits(a->data[0], s1, names, 0)));
     say_begin(opt->json);
     say_number("station", station);
     say_text("ident", "0x%04X", a->data[4] << 8 | a->data[5]);
@@ -200,8 +203,11 @@ static int set_address(uint8_t station, uint8_t to, uint16_t number_, bool for_e
     for (unsigned i = 0; i < 10 && !there; i++)
         there = alive(to);
     if (!there) {
-        fprintf(stderr, "fieldling-master: acknowledged, but no station answers at %u: wrong ident, locked, or not waiting "
-                        "for parameters\n", to);
+        fprintf(stderr,
+                "fieldling-master: acknowledged, but no station answers at %u: wrong ident, locked, or not "
+                "waiting "
+                "for parameters\n",
+                to);
         return M_REFUSED;
     }
     say_begin(opt->json);
@@ -244,7 +250,7 @@ static int live_list(void)
 static const struct {
     const char *verb;
     int (*of_station)(uint8_t station);
-} verbs[] = {{"live-list", NULL}, {"diag", diag},   {"get-cfg", get_cfg}, {"rd-inp", rd_inp},
+} verbs[] = {{"live-list", NULL},  {"diag", diag},   {"get-cfg", get_cfg}, {"rd-inp", rd_inp},
              {"rd-outp", rd_outp}, {"ident", ident}, {"lsap", NULL},       {"set-address", NULL}};
 
 bool master_knows(const char *verb)

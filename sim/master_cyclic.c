@@ -8,7 +8,8 @@
 
 #define REFRESH (200u * (uint64_t)ML_MS)
 #define SECOND  (1000u * (uint64_t)ML_MS)
-#define REPEAT  (500u * (uint64_t)ML_MS) /* the running command (Operate, Clear) is sent again, as masters do */
+#define REPEAT                                                                                               \
+    (500u * (uint64_t)ML_MS) /* the running command (Operate, Clear) is sent again, as masters do */
 
 volatile bool master_stop;
 
@@ -25,7 +26,8 @@ static uint64_t cycle_max; /* the longest bus cycle */
 static struct dp_job jobs[8];
 static unsigned jobs_first, jobs_n;
 
-static const char *const state_words[] = {"absent", "diagnosis", "parameters", "configuration", "getting ready", "exchange"};
+static const char *const state_words[] = {"absent",        "diagnosis",     "parameters",
+                                          "configuration", "getting ready", "exchange"};
 
 static void control(uint8_t command, uint8_t group)
 {
@@ -109,7 +111,8 @@ static void command(char *text)
     for (size_t i = 0; i < sizeof controls / sizeof controls[0]; i++)
         if (strcmp(word, controls[i].word) == 0) {
             const char *const group = strtok_r(NULL, " ", &rest);
-            control((uint8_t)(controls[i].command | (clear ? 0x02 : 0)), group ? (uint8_t)strtoul(group, NULL, 16) : 0);
+            control((uint8_t)(controls[i].command | (clear ? 0x02 : 0)),
+                    group ? (uint8_t)strtoul(group, NULL, 16) : 0);
             return;
         }
     if (strcmp(word, "quit") == 0)
@@ -121,7 +124,8 @@ static void command(char *text)
     else if (strcmp(word, "clear") == 0 || strcmp(word, "operate") == 0)
         clear = word[0] == 'c', control(clear ? 0x02 : 0, 0);
     else
-        say("commands: out SLAVE HEX..., sync|unsync|freeze|unfreeze [GROUP], clear, operate, diag SLAVE, quit");
+        say("commands: out SLAVE HEX..., sync|unsync|freeze|unfreeze [GROUP], clear, operate, diag SLAVE, "
+            "quit");
 }
 
 static void read_commands(void)
@@ -164,15 +168,17 @@ static double ms(uint64_t ticks)
 static void table(void)
 {
     char outputs[26], inputs[26];
-    printf("station %-16s state          exchanges   lost refused diags  outputs                   inputs\n", "model");
+    printf("station %-16s state          exchanges   lost refused diags  outputs                   inputs\n",
+           "model");
     for (unsigned i = 0; i < m.slaves_n; i++) {
         const struct dp_slave *const s = &m.slaves[i];
         hex(outputs, sizeof outputs, s->outputs, s->out_n);
         hex(inputs, sizeof inputs, s->inputs, s->in_n);
-        printf("%7u %-16.16s %-14s %9u %6u %7u %5u  %-25s %s\n", s->address, setup->model[i], state_words[s->state],
-               s->exchanges, s->lost, s->refusals, s->diags, outputs, inputs);
+        printf("%7u %-16.16s %-14s %9u %6u %7u %5u  %-25s %s\n", s->address, setup->model[i],
+               state_words[s->state], s->exchanges, s->lost, s->refusals, s->diags, outputs, inputs);
     }
-    printf("%s, cycle %.1f ms (longest %.1f), %u requests, %u retries; \"quit\" or Ctrl-C ends, \"help\" helps\n",
+    printf("%s, cycle %.1f ms (longest %.1f), %u requests, %u retries; \"quit\" or Ctrl-C ends, \"help\" "
+           "helps\n",
            clear ? "Clear" : "Operate", ms(m.cycle_time), ms(cycle_max), m.ini.sent, m.ini.resent);
     rows = m.slaves_n + 2;
 }
@@ -280,10 +286,12 @@ static void note_cycle(void)
 
 static bool over(uint64_t now)
 {
-    return master_stop || (opt->cycles && m.cycles >= opt->cycles) || (opt->seconds && now >= opt->seconds * SECOND);
+    return master_stop || (opt->cycles && m.cycles >= opt->cycles) ||
+           (opt->seconds && now >= opt->seconds * SECOND);
 }
 
-int master_cyclic(struct master_line *l, struct setup *s, const struct ini *ini, const struct master_options *o)
+int master_cyclic(struct master_line *l, struct setup *s, const struct ini *ini,
+                  const struct master_options *o)
 {
     uint64_t next_control = 0;
     line = l;
@@ -291,7 +299,10 @@ int master_cyclic(struct master_line *l, struct setup *s, const struct ini *ini,
     opt = o;
     clear = o->clear;
     live = !o->json && isatty(STDOUT_FILENO);
-    m = (struct dp_master){.ini = *ini, .slaves = s->slaves, .slaves_n = s->slaves_n, .before = set_outputs,
+    m = (struct dp_master){.ini = *ini,
+                           .slaves = s->slaves,
+                           .slaves_n = s->slaves_n,
+                           .before = set_outputs,
                            .shortest_cycle = o->cycle_ms * (uint64_t)ML_MS};
     for (unsigned i = 0; i < s->slaves_n; i++)
         memcpy(kept[i], s->slaves[i].outputs, sizeof kept[i]);

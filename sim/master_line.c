@@ -13,7 +13,8 @@ static void record(struct master_line *l, const uint8_t *octets, unsigned n)
     if (!l->record)
         return;
     const uint64_t t = l->record_zero + port_steady() - l->zero;
-    fprintf(l->record, "%llu.%09llu", (unsigned long long)(t / 1000000000), (unsigned long long)(t % 1000000000));
+    fprintf(l->record, "%llu.%09llu", (unsigned long long)(t / 1000000000),
+            (unsigned long long)(t % 1000000000));
     for (unsigned i = 0; i < n; i++)
         fprintf(l->record, " %02X", octets[i]);
     fprintf(l->record, "\n");
@@ -76,7 +77,8 @@ uint64_t ml_now(const struct master_line *l)
     return (port_steady() - l->zero) * 576 / 1000;
 }
 
-int ml_wait(struct master_line *l, uint64_t until, int also, void (*hear)(void *of, uint64_t now, uint8_t octet), void *of)
+int ml_wait(struct master_line *l, uint64_t until, int also,
+            void (*hear)(void *of, uint64_t now, uint8_t octet), void *of)
 {
     uint8_t octets[512];
     fd_set readable;

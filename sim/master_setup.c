@@ -179,7 +179,8 @@ const char *setup_end(struct setup *s)
         if (slave->cfg_n == 0)
             return wrong(s, "slave %u has no configuration: gsd, module or cfg is missing", slave->address);
         if (!lengths(slave))
-            return wrong(s, "slave %u: its identifier bytes are cut short or ask for more than 244 octets", slave->address);
+            return wrong(s, "slave %u: its identifier bytes are cut short or ask for more than 244 octets",
+                         slave->address);
         if (slave->address == s->address)
             return wrong(s, "slave %u has the master's address", slave->address);
     }

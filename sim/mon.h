@@ -17,7 +17,8 @@ enum mon_protocol { MON_DP, MON_PA, MON_MODBUS_RTU, MON_MODBUS_ASCII, MON_HDLC }
 /* Errors of an octet, as a receiver reports them; in a record "10!" is a parity error, "10?" a framing error. */
 enum { MON_PARITY = 1, MON_FRAMING = 2 };
 
-#define MON_LUMPS     5000000u /* [ns] silence that ends a burst where octets come in lumps: a pty, a USB adapter */
+#define MON_LUMPS                                                                                            \
+    5000000u /* [ns] silence that ends a burst where octets come in lumps: a pty, a USB adapter */
 #define MON_FRAME_MAX 600u /* octets; Modbus ASCII has the longest, 513 */
 
 struct mon_octet {
@@ -35,11 +36,11 @@ struct mon_frame {
     char wrong[96]; /* why it is not good */
     struct tg tg;   /* DP and PA, when good */
     /* set by mon_pair() */
-    bool answer;           /* answers `asked`, or a request that is not in the record */
-    bool retry;            /* the same request again */
-    bool timed;            /* t_sdr is known */
-    uint64_t t_sdr;        /* [ns] */
-    struct tg asked;       /* the request, when `paired` */
+    bool answer;     /* answers `asked`, or a request that is not in the record */
+    bool retry;      /* the same request again */
+    bool timed;      /* t_sdr is known */
+    uint64_t t_sdr;  /* [ns] */
+    struct tg asked; /* the request, when `paired` */
     bool paired;
 };
 
@@ -47,14 +48,14 @@ struct mon_frame {
 
 struct mon_settings {
     enum mon_protocol protocol;
-    uint32_t rate;  /* bit/s */
-    uint64_t gap;   /* [ns] silence that ends a burst; 0: 33 T_bit (DP), 3.5 characters (Modbus RTU) */
-    bool untimed;   /* a pty: octets take no time, times are those of a computer */
+    uint32_t rate; /* bit/s */
+    uint64_t gap;  /* [ns] silence that ends a burst; 0: 33 T_bit (DP), 3.5 characters (Modbus RTU) */
+    bool untimed;  /* a pty: octets take no time, times are those of a computer */
 };
 extern struct mon_settings mon;
 
-double mon_tbit(uint64_t ns);  /* ns -> bit times */
-uint64_t mon_char(void);       /* [ns] one character of the protocol; 0 when untimed */
+double mon_tbit(uint64_t ns); /* ns -> bit times */
+uint64_t mon_char(void);      /* [ns] one character of the protocol; 0 when untimed */
 double mon_us(uint64_t ns);
 
 /* ---- octets -> frames (mon_split.c) ------------------------------------------------------------------- */
@@ -72,13 +73,15 @@ void mon_split_end(mon_sink *sink);
 /* What is wrong with these octets as one DP telegram; "" when nothing is. err may be NULL. */
 void mon_judge_dp(const uint8_t *octets, const uint8_t *err, unsigned n, char *text, size_t size);
 
-/* Frames of the other protocols (mon_other.c): fills good, wrong, tg. */
+/* Frames of the other protocols (mon_other.c, mon_modbus.c): fills good, wrong, tg. */
 void mon_judge_other(struct mon_frame *f);
+void mon_modbus_judge(struct mon_frame *f);
 
 /* ---- frames -> meaning -------------------------------------------------------------------------------- */
 
-/* Finds request and answer, retries and T_SDR (mon_pair.c). DP only. */
+/* Finds request and answer, retries and T_SDR of DP (mon_pair.c), request and response time of Modbus. */
 void mon_pair(struct mon_frame *f);
+void mon_modbus_pair(struct mon_frame *f);
 
 /* One line: sequence number, time, 0 good / 1 wrong, then addresses and service, or the octets (mon_view.c). */
 void mon_command_view(FILE *to, const struct mon_frame *f);
@@ -88,6 +91,8 @@ void mon_hex_view(FILE *to, const struct mon_frame *f);
 void mon_details(FILE *to, const struct mon_frame *f);
 void mon_other_line(FILE *to, const struct mon_frame *f);
 void mon_other_details(FILE *to, const struct mon_frame *f);
+void mon_modbus_line(FILE *to, const struct mon_frame *f);
+void mon_modbus_details(FILE *to, const struct mon_frame *f);
 
 /* "Slave Diag" of a SAP; NULL: not one of DP's. */
 const char *mon_service(int16_t sap);

@@ -42,19 +42,20 @@ static void bits(const char *name, uint8_t octet, const char *const names[8])
 
 static const char *lock_word(uint8_t status)
 {
-    static const char *const words[4] = {"only min_T_SDR changes", "unlock for other masters", "lock to this master",
-                                         "unlock for other masters"};
+    static const char *const words[4] = {"only min_T_SDR changes", "unlock for other masters",
+                                         "lock to this master", "unlock for other masters"};
     return words[status >> 6];
 }
 
 static void user_prm(const uint8_t *o, unsigned n)
 {
-    static const char *const s1[8] = {[7] = "DPV1_Enable", [6] = "Fail_Safe",         [5] = "Publisher_Enable",
-                                      [2] = "WD_Base_1ms", [1] = "Dis_Stop_Control", [0] = "Dis_Start_Control"};
-    static const char *const s2[8] = {"Check_Cfg_Mode",    NULL,
-                                      "Update_Alarm",      "Status_Alarm",
+    static const char *const s1[8] = {
+        [7] = "DPV1_Enable", [6] = "Fail_Safe",        [5] = "Publisher_Enable",
+        [2] = "WD_Base_1ms", [1] = "Dis_Stop_Control", [0] = "Dis_Start_Control"};
+    static const char *const s2[8] = {"Check_Cfg_Mode",     NULL,
+                                      "Update_Alarm",       "Status_Alarm",
                                       "Manufacturer_Alarm", "Diagnostic_Alarm",
-                                      "Process_Alarm",     "Pull_Plug_Alarm"};
+                                      "Process_Alarm",      "Pull_Plug_Alarm"};
     static const char *const s3[8] = {"Alarm_Mode.0", "Alarm_Mode.1", "Alarm_Mode.2", "Prm_Structure",
                                       "IsoM_Req",     NULL,           NULL,           "PrmCmd"};
     if (n == 0)
@@ -69,8 +70,8 @@ static void user_prm(const uint8_t *o, unsigned n)
 
 static void set_prm(const uint8_t *o, unsigned n)
 {
-    static const char *const names[8] = {[7] = "Lock_Req",   [6] = "Unlock_Req", [5] = "Sync_Req",
-                                         [4] = "Freeze_Req", [3] = "WD_On"};
+    static const char *const names[8] = {
+        [7] = "Lock_Req", [6] = "Unlock_Req", [5] = "Sync_Req", [4] = "Freeze_Req", [3] = "WD_On"};
     if (n < 7) {
         line("too short", "%u octets, Set_Prm has 7 at least", n);
         return;
@@ -116,12 +117,23 @@ static void channel_block(const uint8_t *o)
 {
     static const char *const directions[4] = {"", "input ", "output ", "in/out "};
     static const char *const types[8] = {"?", "bit", "2 bit", "4 bit", "byte", "word", "2 words", "?"};
-    static const char *const errors[10] = {"?",          "short circuit",        "undervoltage",         "overvoltage",
-                                           "overload",   "over-temperature",     "line break",           "upper limit exceeded",
-                                           "lower limit exceeded", "error"};
+    static const char *const errors[10] = {"?",
+                                           "short circuit",
+                                           "undervoltage",
+                                           "overvoltage",
+                                           "overload",
+                                           "over-temperature",
+                                           "line break",
+                                           "upper limit exceeded",
+                                           "lower limit exceeded",
+                                           "error"};
     const unsigned error = o[2] & 31;
-    line("channel related", "module %u %schannel %u, %s: %s (%u)", o[0] & 63, directions[o[1] >> 6], o[1] & 63,
-         types[o[2] >> 5], error < 10 ? errors[error] : error < 16 ? "reserved" : "maker's own", error);
+    line("channel related", "module %u %schannel %u, %s: %s (%u)", o[0] & 63, directions[o[1] >> 6],
+         o[1] & 63, types[o[2] >> 5],
+         error < 10   ? errors[error]
+         : error < 16 ? "reserved"
+                      : "maker's own",
+         error);
 }
 
 static void ext_diag(const uint8_t *o, unsigned n)
@@ -150,8 +162,9 @@ static void ext_diag(const uint8_t *o, unsigned n)
 
 static void slave_diag(const uint8_t *o, unsigned n)
 {
-    static const char *const s1[8] = {"Station_Non_Existent", "Station_Not_Ready", "Cfg_Fault", "Ext_Diag",
-                                      "Not_Supported", "Invalid_Slave_Response", "Prm_Fault", "Master_Lock"};
+    static const char *const s1[8] = {
+        "Station_Non_Existent", "Station_Not_Ready",      "Cfg_Fault", "Ext_Diag",
+        "Not_Supported",        "Invalid_Slave_Response", "Prm_Fault", "Master_Lock"};
     static const char *const s2[8] = {"Prm_Req",     "Stat_Diag", "always-1", "WD_On",
                                       "Freeze_Mode", "Sync_Mode", NULL,       "Deactivated"};
     static const char *const s3[8] = {[7] = "Ext_Diag_Overflow"};
@@ -176,8 +189,8 @@ static void part(char *text, size_t size, uint8_t coded, uint8_t mask, const cha
 {
     const size_t at = strlen(text);
     const unsigned n = (coded & mask) + 1u;
-    snprintf(text + at, size - at, "%s%u %s%s %s%s", at ? ", " : "", n, coded & 0x40 ? "word" : "byte", n > 1 ? "s" : "",
-             direction, coded & 0x80 ? ", consistent as a whole" : "");
+    snprintf(text + at, size - at, "%s%u %s%s %s%s", at ? ", " : "", n, coded & 0x40 ? "word" : "byte",
+             n > 1 ? "s" : "", direction, coded & 0x80 ? ", consistent as a whole" : "");
 }
 
 /* -> octets used */
@@ -218,7 +231,8 @@ static void configuration(const uint8_t *o, unsigned n)
 
 static void global_control(const uint8_t *o, unsigned n)
 {
-    static const char *const names[8] = {[1] = "Clear_Data", [2] = "Unfreeze", [3] = "Freeze", [4] = "Unsync", [5] = "Sync"};
+    static const char *const names[8] = {
+        [1] = "Clear_Data", [2] = "Unfreeze", [3] = "Freeze", [4] = "Unsync", [5] = "Sync"};
     if (n != 2) {
         line("wrong length", "%u octets, Global_Control has 2", n);
         return;

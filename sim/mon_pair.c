@@ -44,7 +44,8 @@ static void pair_request(struct mon_frame *f)
 static void pair_answer(struct mon_frame *f)
 {
     f->answer = true;
-    f->paired = request.open && (f->tg.sd == TG_SC || (f->tg.sa == request.tg.da && f->tg.da == request.tg.sa));
+    f->paired =
+        request.open && (f->tg.sd == TG_SC || (f->tg.sa == request.tg.da && f->tg.da == request.tg.sa));
     if (!f->paired)
         return;
     f->asked = request.tg;
@@ -55,6 +56,8 @@ static void pair_answer(struct mon_frame *f)
 
 void mon_pair(struct mon_frame *f)
 {
+    if (f->good && (mon.protocol == MON_MODBUS_RTU || mon.protocol == MON_MODBUS_ASCII))
+        mon_modbus_pair(f);
     if (mon.protocol != MON_DP || !f->good)
         return; /* a damaged answer leaves the request open: it counts as unanswered */
     if (is_answer(&f->tg))

@@ -26,20 +26,22 @@ static void put(const void *octets, size_t n)
 
 static void put_u32(uint32_t value)
 {
-    const uint8_t o[4] = {(uint8_t)value, (uint8_t)(value >> 8), (uint8_t)(value >> 16), (uint8_t)(value >> 24)};
+    const uint8_t o[4] = {(uint8_t)value, (uint8_t)(value >> 8), (uint8_t)(value >> 16),
+                          (uint8_t)(value >> 24)};
     put(o, sizeof o);
 }
 
 bool mon_pcapng_open(const char *path)
 {
-    static const uint8_t resolution[] = {9, 0, 1, 0, 9, 0, 0, 0, 0, 0, 0, 0}; /* if_tsresol 10^-9, end of options */
+    static const uint8_t resolution[] = {9, 0, 1, 0, 9, 0,
+                                         0, 0, 0, 0, 0, 0}; /* if_tsresol 10^-9, end of options */
     file = fopen(path, "wb");
     if (!file)
         return false;
     put_u32(0x0A0D0D0A); /* section header */
     put_u32(28);
     put_u32(0x1A2B3C4D);
-    put_u32(1); /* version 1.0 */
+    put_u32(1);                               /* version 1.0 */
     put_u32(0xFFFFFFFF), put_u32(0xFFFFFFFF); /* length of the section: unknown */
     put_u32(28);
     put_u32(1); /* interface */

@@ -5,22 +5,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define WIDTH      1100.0
-#define LEFT       90.0
-#define RIGHT      30.0
-#define LANE       30.0
-#define CYCLES     3u
-#define SHOWN_MAX  1200u
-#define BINS       48u
-#define HISTOGRAM  190.0
-#define LANES_MAX  24u
+#define WIDTH     1100.0
+#define LEFT      90.0
+#define RIGHT     30.0
+#define LANE      30.0
+#define CYCLES    3u
+#define SHOWN_MAX 1200u
+#define BINS      48u
+#define HISTOGRAM 190.0
+#define LANES_MAX 24u
 
 enum kind { OUT, IN, ACK, DIAG, OTHER, TOKEN, WRONG_, KINDS };
 static const struct {
     const char *color, *name;
 } kinds[KINDS] = {
-    {"#2f6db3", "Data Exchange request"}, {"#3a9d5d", "Data Exchange answer"}, {"#8cc63f", "short acknowledge"},
-    {"#e08e1b", "diagnosis"},             {"#7d8590", "other"},                 {"#8e5bb5", "token"},
+    {"#2f6db3", "Data Exchange request"},
+    {"#3a9d5d", "Data Exchange answer"},
+    {"#8cc63f", "short acknowledge"},
+    {"#e08e1b", "diagnosis"},
+    {"#7d8590", "other"},
+    {"#8e5bb5", "token"},
     {"#d03535", "wrong telegram"},
 };
 
@@ -29,7 +33,8 @@ static struct shown {
     uint8_t by; /* who sends; 128: nobody knows */
     enum kind kind;
     uint8_t exchange_with; /* a Data_Exchange request to this station; 255: none */
-} *frames;
+    bool asks;             /* a request or a token: a master's */
+} * frames;
 static size_t frames_n, frames_room;
 static double *t_sdr;
 static size_t t_sdr_n, t_sdr_room;
@@ -52,6 +57,7 @@ static void classify(const struct mon_frame *f, struct shown *s)
     s->by = f->good ? f->tg.sa : 128;
     if (f->good && f->tg.sd == TG_SC)
         s->by = f->paired ? f->asked.da : 128;
+    s->asks = f->good && !f->answer;
     if (!f->good) {
         s->kind = WRONG_;
     } else if (f->tg.sd == TG_SD4) {
@@ -68,7 +74,7 @@ static void classify(const struct mon_frame *f, struct shown *s)
 void mon_plot_frame(const struct mon_frame *f)
 {
     frames = room_for(frames, frames_n, &frames_room, sizeof *frames);
-    frames[frames_n] = (struct shown){f->start, f->end, 128, OTHER, 255};
+    frames[frames_n] = (struct shown){f->start, f->end, 128, OTHER, 255, false};
     if (mon.protocol == MON_DP)
         classify(f, &frames[frames_n]);
     frames_n++;
@@ -90,7 +96,8 @@ static void window(size_t *from, size_t *to, double *cycle_ms)
     *cycle_ms = 0;
     for (size_t i = 0; i < frames_n && first_station == 255; i++)
         first_station = frames[i].exchange_with;
-    for (size_t i = frames_n; i-- > 0 && first_station != 255 && found <= CYCLES && frames_n - i < SHOWN_MAX;) {
+    for (size_t i = frames_n;
+         i-- > 0 && first_station != 255 && found <= CYCLES && frames_n - i < SHOWN_MAX;) {
         if (frames[i].exchange_with != first_station)
             continue;
         if (found++ == 0) {
@@ -118,6 +125,14 @@ static unsigned lanes(size_t from, size_t to, uint8_t lane_of[129], uint8_t stat
     return n;
 }
 
+static bool is_master(size_t from, size_t to, uint8_t station)
+{
+    for (size_t i = from; i < to; i++)
+        if (frames[i].by == station && frames[i].asks)
+            return true;
+    return false;
+}
+
 /* 1, 2 or 5 times a power of ten, so that about ten steps fill the span. */
 static double step_of(double span)
 {
@@ -137,7 +152,8 @@ static void axis(FILE *to, double y, double span, const char *unit)
     const double step = step_of(span), scale = (WIDTH - LEFT - RIGHT) / span;
     for (double v = 0; v <= span * 1.0001; v += step) {
         const double x = LEFT + v * scale;
-        fprintf(to, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#888\"/>\n", x, y, x, y + 4);
+        fprintf(to, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#888\"/>\n", x, y, x,
+                y + 4);
         snprintf(label, sizeof label, "%g%s", v, v == 0 ? unit : "");
         text(to, x, y + 17, "middle", label);
     }
@@ -149,7 +165,8 @@ static void legend(FILE *to, double y, const bool used[KINDS])
     for (unsigned k = 0; k < KINDS; k++) {
         if (!used[k])
             continue;
-        fprintf(to, "<rect x=\"%.1f\" y=\"%.1f\" width=\"11\" height=\"11\" fill=\"%s\"/>\n", x, y - 10, kinds[k].color);
+        fprintf(to, "<rect x=\"%.1f\" y=\"%.1f\" width=\"11\" height=\"11\" fill=\"%s\"/>\n", x, y - 10,
+                kinds[k].color);
         text(to, x + 16, y, "start", kinds[k].name);
         x += 32 + 6.6 * (double)strlen(kinds[k].name);
     }
@@ -170,18 +187,21 @@ static double timing(FILE *to, double y)
     const double span = (double)(frames[until - 1].end - zero) / 1e6;
     const double scale = (WIDTH - LEFT - RIGHT) / span;
     if (cycle_ms > 0)
-        snprintf(label, sizeof label, "The last bus cycles: %.3f ms each, %u stations, %g kbit/s", cycle_ms, known, mon.rate / 1e3);
+        snprintf(label, sizeof label, "The last bus cycles: %.3f ms each, %u stations, %g kbit/s", cycle_ms,
+                 known, mon.rate / 1e3);
     else
         snprintf(label, sizeof label, "The last telegrams: %u stations, %g kbit/s", known, mon.rate / 1e3);
-    fprintf(to, "<text x=\"%.1f\" y=\"%.1f\" font-size=\"15\" font-weight=\"bold\">%s</text>\n", LEFT, y, label);
+    fprintf(to, "<text x=\"%.1f\" y=\"%.1f\" font-size=\"15\" font-weight=\"bold\">%s</text>\n", LEFT, y,
+            label);
     y += 16;
     for (unsigned i = 0; i < n; i++) {
-        fprintf(to, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\"/>\n", LEFT, y + i * LANE,
-                WIDTH - LEFT - RIGHT, LANE, i % 2 ? "#ffffff" : "#f2f4f7");
+        fprintf(to, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\"/>\n", LEFT,
+                y + i * LANE, WIDTH - LEFT - RIGHT, LANE, i % 2 ? "#ffffff" : "#f2f4f7");
         if (station_of[i] == 128)
             snprintf(label, sizeof label, "unknown");
         else
-            snprintf(label, sizeof label, "station %u", station_of[i]);
+            snprintf(label, sizeof label, is_master(from, until, station_of[i]) ? "master %u" : "station %u",
+                     station_of[i]);
         text(to, LEFT - 8, y + i * LANE + LANE / 2 + 4, "end", label);
     }
     for (size_t i = from; i < until; i++) {
@@ -191,7 +211,8 @@ static double timing(FILE *to, double y)
             continue;
         used[frames[i].kind] = true;
         fprintf(to, "<rect x=\"%.2f\" y=\"%.1f\" width=\"%.2f\" height=\"%.1f\" fill=\"%s\"/>\n", x,
-                y + lane_of[frames[i].by] * LANE + 6, w < 0.6 ? 0.6 : w, LANE - 12, kinds[frames[i].kind].color);
+                y + lane_of[frames[i].by] * LANE + 6, w < 0.6 ? 0.6 : w, LANE - 12,
+                kinds[frames[i].kind].color);
     }
     y += n * LANE;
     axis(to, y, span, " ms");
@@ -203,8 +224,10 @@ static double timing(FILE *to, double y)
 
 static void mark(FILE *to, double x, double top, double bottom, const char *name)
 {
-    fprintf(to, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#d03535\" stroke-dasharray=\"4 3\"/>\n", x,
-            top, x, bottom);
+    fprintf(to,
+            "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#d03535\" stroke-dasharray=\"4 "
+            "3\"/>\n",
+            x, top, x, bottom);
     text(to, x + 4, top + 10, "start", name);
 }
 
@@ -213,7 +236,8 @@ static unsigned max_t_sdr(void)
     const struct {
         uint32_t rate;
         unsigned tbit;
-    } steps[] = {{187500, 60}, {500000, 100}, {1500000, 150}, {3000000, 250}, {6000000, 450}, {12000000, 800}};
+    } steps[] = {{187500, 60},   {500000, 100},  {1500000, 150},
+                 {3000000, 250}, {6000000, 450}, {12000000, 800}};
     for (unsigned i = 0; i < sizeof steps / sizeof steps[0]; i++)
         if (mon.rate <= steps[i].rate)
             return steps[i].tbit;
@@ -238,15 +262,17 @@ static void histogram(FILE *to, double y)
     span = first + BINS * step;
     const double scale = (WIDTH - LEFT - RIGHT) / span, width = step * scale;
     snprintf(label, sizeof label, "T_SDR of %lu answers [T_bit]", (unsigned long)t_sdr_n);
-    fprintf(to, "<text x=\"%.1f\" y=\"%.1f\" font-size=\"15\" font-weight=\"bold\">%s</text>\n", LEFT, y, label);
+    fprintf(to, "<text x=\"%.1f\" y=\"%.1f\" font-size=\"15\" font-weight=\"bold\">%s</text>\n", LEFT, y,
+            label);
     const double top = y + 16, bottom = top + HISTOGRAM;
-    fprintf(to, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#888\"/>\n", LEFT, bottom, WIDTH - RIGHT, bottom);
+    fprintf(to, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#888\"/>\n", LEFT, bottom,
+            WIDTH - RIGHT, bottom);
     for (unsigned i = 0; i < BINS; i++) {
         const double h = (HISTOGRAM - 40) * bins[i] / most, x = LEFT + (first + i * step) * scale;
         if (!bins[i])
             continue;
-        fprintf(to, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"#3a9d5d\"/>\n", x + 1, bottom - h,
-                width - 2, h);
+        fprintf(to, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"#3a9d5d\"/>\n", x + 1,
+                bottom - h, width - 2, h);
         snprintf(label, sizeof label, "%u", bins[i]);
         text(to, x + width / 2, bottom - h - 4, "middle", label);
     }
@@ -268,10 +294,11 @@ bool mon_plot_write(const char *path)
     window(&from, &until, &unused);
     const unsigned n = frames_n ? lanes(from, until, lane_of, station_of) : 0;
     snprintf(body, sizeof body, "%.0f", 40 + 16 + n * LANE + 42 + 50 + 16 + HISTOGRAM + 34);
-    fprintf(to,
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%s\" font-family=\"sans-serif\" "
-            "font-size=\"12\" fill=\"#222\">\n<rect width=\"100%%\" height=\"100%%\" fill=\"#ffffff\"/>\n",
-            WIDTH, body);
+    fprintf(
+        to,
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.0f\" height=\"%s\" font-family=\"sans-serif\" "
+        "font-size=\"12\" fill=\"#222\">\n<rect width=\"100%%\" height=\"100%%\" fill=\"#ffffff\"/>\n",
+        WIDTH, body);
     if (frames_n)
         histogram(to, timing(to, 30) + 46);
     else

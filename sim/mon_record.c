@@ -22,7 +22,9 @@ static bool read_time(const char **at, uint64_t *ns)
 
 static int digit(char c)
 {
-    return isdigit((unsigned char)c) ? c - '0' : isxdigit((unsigned char)c) ? tolower((unsigned char)c) - 'a' + 10 : -1;
+    return isdigit((unsigned char)c)    ? c - '0'
+           : isxdigit((unsigned char)c) ? tolower((unsigned char)c) - 'a' + 10
+                                        : -1;
 }
 
 static bool read_line(const char *at, mon_sink *sink)
@@ -75,7 +77,8 @@ void mon_record_head(FILE *to)
 
 void mon_record_frame(FILE *to, const struct mon_frame *f)
 {
-    fprintf(to, "%llu.%09llu", (unsigned long long)(f->start / 1000000000), (unsigned long long)(f->start % 1000000000));
+    fprintf(to, "%llu.%09llu", (unsigned long long)(f->start / 1000000000),
+            (unsigned long long)(f->start % 1000000000));
     for (unsigned i = 0; i < f->n; i++)
         fprintf(to, " %02X", f->octets[i]);
     fprintf(to, "\n");

@@ -127,7 +127,8 @@ static void judge_idle_inside(struct mon_frame *f, unsigned from)
     for (unsigned i = 1; i < f->n && !mon.gap && !f->wrong[0]; i++) {
         const uint64_t span = burst[from + i].start - burst[from + i - 1].start;
         if (mon_tbit(span) > 11 + 3)
-            snprintf(f->wrong, sizeof f->wrong, "idle of %.0f T_bit before octet %u", mon_tbit(span) - 11, i + 1);
+            snprintf(f->wrong, sizeof f->wrong, "idle of %.0f T_bit before octet %u", mon_tbit(span) - 11,
+                     i + 1);
     }
 }
 

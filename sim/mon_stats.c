@@ -60,7 +60,8 @@ static void answer(const struct mon_frame *f)
     waiting_for = -1;
     stations[from].answers++;
     stations[from].acknowledged += f->tg.sd == TG_SC;
-    stations[from].refused += f->tg.sd != TG_SC && (function == TG_UE || function == TG_RR || function == TG_RS);
+    stations[from].refused +=
+        f->tg.sd != TG_SC && (function == TG_UE || function == TG_RR || function == TG_RS);
     if (f->timed)
         add(&stations[from].t_sdr, f->t_sdr);
 }
@@ -110,7 +111,8 @@ void mon_stats_print(FILE *to)
     if (mon.untimed)
         fprintf(to, " (times are a computer's)");
     else
-        fprintf(to, ", line busy %.1f %%, %lu requests without T_SYN", seconds > 0 ? (double)busy / seconds / 1e7 : 0, no_syn);
+        fprintf(to, ", line busy %.1f %%, %lu requests without T_SYN",
+                seconds > 0 ? (double)busy / seconds / 1e7 : 0, no_syn);
     fprintf(to, "; %lu wrong, %lu tokens\n", wrong, tokens);
     if (mon.protocol != MON_DP)
         return;

@@ -43,9 +43,10 @@ const char *mon_answer_word(uint8_t function)
 static const char *request_word(uint8_t function)
 {
     static const char *const words[16] = {
-        [TG_SDA_L] = "SDA low",     [TG_SDN_L] = "SDN low",     [TG_SDA_H] = "SDA high", [TG_SDN_H] = "SDN high",
-        [TG_STATUS] = "FDL Status", [TG_SRD_L] = "SRD low",     [TG_SRD_H] = "SRD high", [TG_IDENT] = "Ident",
-        [TG_LSAP] = "LSAP Status",  [7] = "request diagnosis",
+        [TG_SDA_L] = "SDA low",    [TG_SDN_L] = "SDN low",     [TG_SDA_H] = "SDA high",
+        [TG_SDN_H] = "SDN high",   [TG_STATUS] = "FDL Status", [TG_SRD_L] = "SRD low",
+        [TG_SRD_H] = "SRD high",   [TG_IDENT] = "Ident",       [TG_LSAP] = "LSAP Status",
+        [7] = "request diagnosis",
     };
     return words[function & 15] ? words[function & 15] : "unknown request function";
 }
@@ -101,7 +102,8 @@ static void request(FILE *to, const struct mon_frame *f)
 /* An answer without SAPs is of Data Exchange only if it carries data and that was asked. */
 static void answer(FILE *to, const struct mon_frame *f)
 {
-    static const char *const station[4] = {"slave", "master not ready", "master ready for the ring", "master in the ring"};
+    static const char *const station[4] = {"slave", "master not ready", "master ready for the ring",
+                                           "master in the ring"};
     const struct tg *t = &f->tg;
     const uint8_t function = t->fc & 15;
     const char *asked = f->paired && is_dp(&f->asked) ? mon_service(f->asked.dsap) : NULL;

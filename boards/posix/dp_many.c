@@ -45,8 +45,8 @@ static void driver(bool on)
     (void)on;
 }
 
-static void power_on(uint8_t address, uint8_t baud, void (*to)(void *of, uint8_t octet, uint64_t start, uint64_t end),
-                     void *of)
+static void power_on(uint8_t address, uint8_t baud,
+                     void (*to)(void *of, uint8_t octet, uint64_t start, uint64_t end), void *of)
 {
     static const struct hv_wire wire = {octet_out, driver};
     rate = baud;

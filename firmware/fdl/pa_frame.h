@@ -22,7 +22,7 @@
 
 enum pa_sdl { PA_SDL1 = 0x10, PA_SDL2 = 0x68, PA_SDL3 = 0xA2, PA_SDL4 = 0xDC, PA_SDL5 = 0xE5 };
 
-#define PA_BODY_MAX  249u                /* DA SA FC + 246 octets */
+#define PA_BODY_MAX  249u /* DA SA FC + 246 octets */
 #define PA_FRAME_MAX (PA_BODY_MAX + 6u)
 #define PA_RESIDUE   0xE394u
 
