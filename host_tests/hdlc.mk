@@ -32,6 +32,11 @@ UNIT_TESTS += test_hdlc_recovery
 test_hdlc_recovery_SRC      = $(REMOTE_TEST) sim/hdlc_primary.c sim/hdlc_master.c
 test_hdlc_recovery_DEFAULTS = $(HDLC_DEFAULTS)
 
+UNIT_TESTS += test_hdlc_errors
+test_hdlc_errors_SRC      = $(REMOTE_TEST)
+test_hdlc_errors_DEFAULTS = $(HDLC_DEFAULTS)
+test_hdlc_errors_TIMEOUT  = 400
+
 # Host programs: a remote module; the master station.
 PROGRAMS += fieldling-hdlc
 fieldling-hdlc_SRC      = boards/posix/fieldling_hdlc.c boards/posix/hdlc_line.c boards/posix/rm_host_board.c \

@@ -52,7 +52,7 @@ test_modbus_inverter_DEFAULTS = $(MB_DEFAULTS)
 test_modbus_inverter_CFLAGS   = -DMB_CONFIG='"inverter_mb.h"' -Iboards/common
 
 # The README's tables and example.
-SCRIPT_TESTS_ONCE += host_tests/modbus_readme.py
+SCRIPT_TESTS_ONCE += host_tests/modbus_readme.py host_tests/modbus_rows.py
 .PHONY: modbus-map
 modbus-map:
 	@$(PYTHON) host_tests/modbus_readme.py --write

@@ -33,6 +33,8 @@ static const struct mb_block CODE blocks[] = {
     {MB_FILE, 4, 16, file_4},
     {MB_FILE, 9, 128, file_9},
     {MB_FILE, 10, 10002, file_10},
+    {MB_FILE, 11, 4, NULL},
+    {MB_FIFO, 0x0700, 3, NULL},
     MB_MAP_END,
 };
 const struct mb_block CODE *mb_map = blocks;
@@ -59,7 +61,11 @@ static void write_bit(unsigned bit, unsigned value)
 uint8_t mb_block_ind(void)
 {
     for (uint16_t i = 0; i < mb_span.qty; i++) {
-        if (mb_span.table == MB_HOLDING && mb_span.write)
+        if (mb_span.table >= MB_FIFO && mb_span.write)
+            fx.callback[mb_span.addr + i] = mb_span_get(i);
+        else if (mb_span.table >= MB_FIFO)
+            mb_span_put(i, mb_span.table == MB_FILE ? fx.callback[mb_span.addr + i] : i ? 0x1110u + i : 2u);
+        else if (mb_span.table == MB_HOLDING && mb_span.write)
             fx.callback[mb_span.addr - 0x200 + i] = mb_span_get(i);
         else if (mb_span.table == MB_HOLDING)
             mb_span_put(i, fx.callback[mb_span.addr - 0x200 + i]);
@@ -247,4 +253,15 @@ void ask_text(const char *request, const char *answer)
 {
     ask_frame(request, (const uint8_t *)request, (unsigned)strlen(request), (const uint8_t *)answer,
               answer ? (unsigned)strlen(answer) : 0);
+}
+
+uint8_t fixture_mode;
+
+void fixture_both(void (*test)(void), const char *rtu, const char *ascii, int line)
+{
+    fixture_mode = MB_RTU;
+    UnityDefaultTestRun(test, rtu, line);
+    fixture_mode = MB_ASCII;
+    UnityDefaultTestRun(test, ascii, line);
+    fixture_mode = MB_RTU;
 }

@@ -32,6 +32,11 @@ extern struct fixture fx;
 /* A fresh station at `address` and 19200 bit/s, contents as above, counters 0, after t3.5 of silence. */
 void fixture_begin(uint8_t address, uint8_t mode);
 
+/* Run a test twice: in RTU and in ASCII; setUp() begins in fixture_mode. */
+extern uint8_t fixture_mode;
+void fixture_both(void (*test)(void), const char *rtu, const char *ascii, int line);
+#define BOTH(test) fixture_both(test, #test "_rtu", #test "_ascii", __LINE__)
+
 /* Send the body (address and PDU, "11 03 00 6B ..."), wait, and compare with the expected body; NULL: silence. */
 void ask(const char *request, const char *answer);
 

@@ -247,7 +247,9 @@ static void test_clear_to_send_that_never_comes_ends_in_a_restart(void)
         TEST_ASSERT_EQUAL(1, hdlc_8273_counters.tx[HDLC_TX_RESTARTS]);
         TEST_ASSERT_FALSE(hdlc_8273_sending());
         hal_8273_chip.cts = true;
+        hbus_clear();
         hbus_run(60);
+        TEST_ASSERT_EQUAL(0, hbus.driven); /* the frame that was given up does not come after all */
         ANSWERS((0x05, 0x11), (0x05, 0x11)); /* it was connected all the same */
     }
 }
@@ -290,6 +292,45 @@ static void test_dma_buffer_overflow(void)
     TEST_ASSERT_EQUAL(1, rx(HDLC_RX_OVERFLOW));
     TEST_ASSERT_EQUAL(0, hbus.answers);
     ANSWERS((0x05, 0x11), (0x05, 0x11));
+}
+
+/* A good FCS, but the chip says that it gave us more or less than it did. */
+static void test_a_count_that_does_not_fit(void)
+{
+    static const uint16_t wrong[] = {1, 3, 5, 100, 0x0102, 0x2002};
+    for (unsigned k = 0; k < 2 * sizeof wrong / sizeof wrong[0]; k++) {
+        start(k & 1u ? HDLC_8273_DMA : 0);
+        hbus.out.n = 0;
+        struct hb_line line = {0};
+        hb_frame(&line, snrm, 2);
+        line.n -= 3;
+        hbus_say_bits(&line);
+        hal_8273_chip.rx.count = wrong[k / 2];
+        line = (struct hb_line){.n = 3, .bit = {1, 1, 0}};
+        hbus_say_bits(&line);
+        hbus_run(60);
+        if (!(k & 1u) || wrong[k / 2] > HDLC_FRAME_MAX + 1u) /* DMA: the count is all there is */
+            TEST_ASSERT_EQUAL(1, rx(HDLC_RX_COUNT) + rx(HDLC_RX_GOOD) * 100);
+        ANSWERS((0x05, 0x93), (0x05, 0x73));
+    }
+}
+
+static void test_a_late_interrupt_finds_the_last_octet_behind_the_result(void)
+{
+    struct hb_line line = {0}, end = {0};
+    start(0);
+    hb_frame(&line, snrm, 2);
+    end.n = 10; /* the last octet is handed over, then the flag ends the frame */
+    line.n -= end.n;
+    memcpy(end.bit, line.bit + line.n, end.n);
+    hbus_clear();
+    hbus_say_bits(&line);
+    hv_vm.masked = true;
+    hbus_say_bits(&end);
+    TEST_ASSERT_TRUE(hal_8273_chip.rx.full && hal_8273_chip.rx.results.n);
+    hv_vm.masked = false;
+    hbus_run(80);
+    TEST_ASSERT_EQUAL(1, hbus.answers);
 }
 
 static void test_a_frame_waits_for_main_and_what_comes_meanwhile_is_lost(void)
@@ -472,6 +513,8 @@ int main(void)
     RUN_TEST(test_carrier_lost_in_a_frame);
     RUN_TEST(test_a_result_not_read_in_time);
     RUN_TEST(test_dma_buffer_overflow);
+    RUN_TEST(test_a_count_that_does_not_fit);
+    RUN_TEST(test_a_late_interrupt_finds_the_last_octet_behind_the_result);
     RUN_TEST(test_a_frame_waits_for_main_and_what_comes_meanwhile_is_lost);
     RUN_TEST(test_abort_stops_a_frame);
     RUN_TEST(test_set_and_reset_of_every_mode_register);

@@ -6,11 +6,9 @@
 
 #include <string.h>
 
-static uint8_t mode;
-
 void setUp(void)
 {
-    fixture_begin(0x11, mode);
+    fixture_begin(0x11, fixture_mode);
 }
 
 void tearDown(void)
@@ -290,6 +288,15 @@ static void test_blocks_without_memory_go_to_the_application(void)
     ask("11 01 03 02 00 03", "11 01 01 05");
     ask("11 05 03 07 FF 00", "11 05 03 07 FF 00");
     TEST_ASSERT_EQUAL_HEX8(0x94, fx.callback_bits);
+}
+
+static void test_files_and_queues_without_memory_go_to_the_application(void)
+{
+    ask("11 15 0B 06 00 0B 00 01 00 02 12 34 56 78", "11 15 0B 06 00 0B 00 01 00 02 12 34 56 78");
+    TEST_ASSERT_EQUAL_HEX16(0x1234, fx.callback[1]);
+    ask("11 14 07 06 00 0B 00 01 00 02", "11 14 06 05 06 12 34 56 78");
+    ask("11 14 07 06 00 0B 00 03 00 02", "11 94 02");
+    ask("11 18 07 00", "11 18 00 06 00 02 11 11 11 12");
 }
 
 /* ---- 17: [A] 6.13 ---------------------------------------------------------------------------------------- */
@@ -605,16 +612,6 @@ static void test_memory_is_copied_between_lock_and_unlock(void)
     }
 }
 
-static void in_both_modes(UnityTestFunction test, const char *rtu, const char *ascii, int line)
-{
-    mode = MB_RTU;
-    UnityDefaultTestRun(test, rtu, line);
-    mode = MB_ASCII;
-    UnityDefaultTestRun(test, ascii, line);
-}
-
-#define BOTH(test) in_both_modes(test, #test "_rtu", #test "_ascii", __LINE__)
-
 int main(void)
 {
     UNITY_BEGIN();
@@ -636,6 +633,7 @@ int main(void)
     BOTH(test_a_write_changes_all_or_nothing);
     BOTH(test_the_application_can_refuse_with_any_exception);
     BOTH(test_blocks_without_memory_go_to_the_application);
+    BOTH(test_files_and_queues_without_memory_go_to_the_application);
     BOTH(test_server_id);
     BOTH(test_reading_files);
     BOTH(test_reading_as_much_of_files_as_an_answer_holds);

@@ -13,9 +13,18 @@ const struct mb_object CODE mb_objects[] = {
     {0, NULL},
 };
 
+/* 43/13 is the application's: here it answers what it was asked, without the last octet. */
+uint8_t mb_canopen_ind(void)
+{
+    if (mb_pdu_len < 4)
+        return MB_ILLEGAL_VALUE;
+    mb_pdu_len--;
+    return MB_OK;
+}
+
 void setUp(void)
 {
-    fixture_begin(0x11, MB_RTU);
+    fixture_begin(0x11, fixture_mode);
 }
 
 void tearDown(void)
@@ -73,11 +82,18 @@ static void test_one_object_alone(void)
     ask("11 2B 0E 04 03", "11 AB 02");
 }
 
+static void test_canopen_is_routed_to_the_application(void)
+{
+    ask("11 2B 0D 01 02 03", "11 2B 0D 01 02");
+    ask("11 2B 0D 01", "11 AB 03");
+}
+
 int main(void)
 {
     UNITY_BEGIN();
-    RUN_TEST(test_each_level_has_its_objects);
-    RUN_TEST(test_a_stream_goes_on_where_more_follows);
-    RUN_TEST(test_one_object_alone);
+    BOTH(test_each_level_has_its_objects);
+    BOTH(test_a_stream_goes_on_where_more_follows);
+    BOTH(test_one_object_alone);
+    BOTH(test_canopen_is_routed_to_the_application);
     return UNITY_END();
 }

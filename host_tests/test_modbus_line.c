@@ -12,7 +12,7 @@ static const uint8_t request[] = {0x11, 0x06, 0x00, 0x01, 0x12, 0x34};
 
 void setUp(void)
 {
-    fixture_begin(0x11, MB_RTU);
+    fixture_begin(0x11, fixture_mode);
 }
 
 void tearDown(void)
@@ -501,6 +501,7 @@ static void test_counters(void)
     ask("11 06 00 01 12 34", "11 86 06");
     fx.veto = MB_NEGATIVE_ACKNOWLEDGE;
     ask("11 06 00 01 12 34", "11 86 07");
+    client.wrong.err_at = 1;
     client.wrong.err = HAL_ERR_OVERRUN;
     ask(GOOD, NULL);
     client.wrong.err = HAL_ERR_PARITY;
@@ -551,6 +552,7 @@ static void test_event_log(void)
     ask("11 03 77 77 00 01", "11 83 02");
     ask("11 0C", "11 0C 0B 00 00 00 01 00 03 80 41 80 40 80");
     ask("00 06 00 01 12 34", NULL);
+    client.wrong.err_at = 1;
     client.wrong.err = HAL_ERR_OVERRUN;
     ask(GOOD, NULL);
     client.wrong.err = 0;
@@ -573,7 +575,7 @@ static void test_send_events_by_exception(void)
         {8, "11 86 08", "11 0C 09 00 00 00 00 00 02 80 40 80"},
     };
     for (unsigned i = 0; i < sizeof of / sizeof of[0]; i++) {
-        fixture_begin(0x11, MB_RTU);
+        fixture_begin(0x11, fixture_mode);
         fx.veto = of[i].veto;
         ask("11 06 00 01 12 34", of[i].answer);
         ask("11 0C", of[i].log);
@@ -669,14 +671,14 @@ int main(void)
     RUN_TEST(test_ascii_the_delimiter_can_be_changed);
     RUN_TEST(test_what_cannot_be_opened_changes_nothing);
     RUN_TEST(test_mode_rate_and_parity_are_chosen_at_run_time);
-    RUN_TEST(test_return_query_data);
-    RUN_TEST(test_diagnostic_register);
-    RUN_TEST(test_reserved_sub_functions);
-    RUN_TEST(test_counters);
-    RUN_TEST(test_event_counter);
-    RUN_TEST(test_event_log);
-    RUN_TEST(test_send_events_by_exception);
-    RUN_TEST(test_the_log_holds_the_newest_64);
+    BOTH(test_return_query_data);
+    BOTH(test_diagnostic_register);
+    BOTH(test_reserved_sub_functions);
+    BOTH(test_counters);
+    BOTH(test_event_counter);
+    BOTH(test_event_log);
+    BOTH(test_send_events_by_exception);
+    BOTH(test_the_log_holds_the_newest_64);
     RUN_TEST(test_restart_answers_first_then_clears_the_counters);
     RUN_TEST(test_listen_only_mode);
     return UNITY_END();

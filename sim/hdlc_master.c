@@ -15,6 +15,8 @@ static struct {
     enum hm_fault fault;
     unsigned at; /* bits of the frame that have gone by, for the fault */
     bool station_sends;
+    uint8_t copy[HB_OCTETS];
+    unsigned copy_n; /* an answer that will come once more */
 } hm;
 
 const char *hm_reason(enum hm_fault kind)
@@ -105,6 +107,9 @@ static void say(void)
     hm.n = 0;
     hbus_say_bits(&line);
     hp_sent(&hm_primary, now_ms());
+    if (hm.copy_n)
+        hp_frame(&hm_primary, hm.copy, hm.copy_n, now_ms());
+    hm.copy_n = 0;
 }
 
 static void step(void)
@@ -119,6 +124,10 @@ static void step(void)
     hp_frame(&hm_primary, hbus.answer, hbus.answer_n, now_ms());
     if (hm.fault == HM_TWICE)
         hp_frame(&hm_primary, hbus.answer, hbus.answer_n, now_ms());
+    if (hm.fault == HM_LATE) {
+        hm.copy_n = hbus.answer_n;
+        memcpy(hm.copy, hbus.answer, hbus.answer_n);
+    }
     hm.fault = HM_NONE;
 }
 

@@ -12,7 +12,8 @@
     F(BIT, "a spike turns a bit")                                                                              \
     F(CUT, "the sender is reset: the rest is missing")                                                         \
     F(SLIP, "the receiver's clock slips: a bit is missing")                                                    \
-    F(TWICE, "an echo on a repeater: an answer comes twice (a command: collides with its answer, not tried)")
+    F(TWICE, "an echo on a repeater: an answer comes twice (a command: collides with its answer, not tried)")      \
+    F(LATE, "a modem that stores: a copy of an answer comes when the next command is already out")
 
 enum hm_fault {
 #define HM_NAME(name, reason) HM_##name,

@@ -113,8 +113,7 @@ static void receive(struct i8273 *chip)
 {
     struct i8273_rx_side *rx = &chip->rx;
     rx->enabled = true;
-    rx->in_frame = rx->activity = rx->full = false;
-    rx->results.n = 0;
+    rx->in_frame = rx->activity = rx->full = false; /* a result that was not read stays */
     rx->command = chip->command;
     rx->limit = length(chip);
     rx->a1 = chip->parameter[2];
@@ -132,7 +131,6 @@ static void transmit(struct i8273 *chip)
     tx->command = chip->command;
     tx->left = length(chip);
     tx->heads = 0;
-    tx->results.n = 0;
     if (chip->need == 4) {
         tx->head[0] = chip->parameter[2];
         tx->head[1] = chip->parameter[3];

@@ -158,9 +158,9 @@ static bool complete_isr(void) IN_ISR
             return false;
         stored = (uint8_t)(stored + count[0]);
     } else {
-        if (count[0] == (uint8_t)(offered + 1u)) /* the result overtook the last octet */
+        if ((hal_8273_read(HAL_8273_STATUS) & (RXINT | RXIRA)) == RXINT) /* the result overtook the last octet */
             store_isr(hal_8273_read(HAL_8273_RX_DATA));
-        if (count[0] != offered)
+        if (count[0] != offered || (count[1] && stored <= HDLC_FRAME_MAX))
             return false;
     }
     return stored >= 2u; /* A and C */
