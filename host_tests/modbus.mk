@@ -56,3 +56,5 @@ SCRIPT_TESTS_ONCE += host_tests/modbus_readme.py host_tests/modbus_rows.py
 .PHONY: modbus-map
 modbus-map:
 	@$(PYTHON) host_tests/modbus_readme.py --write
+host_tests/modbus_rows.py_TIMEOUT = 300
+host_tests/interop_modbus.py_TIMEOUT = 300
