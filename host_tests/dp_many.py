@@ -65,6 +65,14 @@ def test_the_analyzer_agrees():
                                     "2.29/", "2.29"], line
 
 
+def test_the_readmes_picture_is_what_is_drawn():
+    with tempfile.TemporaryDirectory() as folder:
+        record, picture = Path(folder) / "six.rec", Path(folder) / "six.svg"
+        assert many(6, 30, RATE_500K, record).returncode == 0
+        subprocess.run([str(BIN / "fieldling-mon"), "-q", "--plot", str(picture), str(record)], check=True, timeout=30)
+        assert picture.read_text() == Path("sim/bus_cycle.svg").read_text(), "sim/bus_cycle.svg is old (sim/README.md)"
+
+
 def test_wrong_usage():
     for arguments in ((), (0,), (125,), (5, 0), (5, 5, 11)):
         assert many(*arguments).returncode == 2, arguments

@@ -357,6 +357,17 @@ def test_hdlc():
 
 # ---- usage --------------------------------------------------------------------------------------------------------
 
+def test_the_readmes_sample_is_what_is_printed():
+    text = (TOP / "sim/README.md").read_text()
+    block = text.split("$ build/posix/fieldling-mon ", 1)[1].split("```", 1)[0].splitlines()
+    lines, at = mon(*block[0].split()), 0
+    for line in block[1:]:
+        if line != "...":
+            assert line in lines[at:], f"{line!r} is not printed, or not in this order"
+            at = lines.index(line, at) + 1
+    assert at > 20
+
+
 def test_what_cannot_be_used_is_status_2():
     assert "no such choice" in mon("--view", "x", "-", status=2)[0]
     assert "No such file" in mon("no/such.rec", status=2)[0]
