@@ -56,6 +56,7 @@ static void A12_the_start_of_a_slave_as_traced(void)
 static void A12_SD2_with_a_right_FCS_is_received(void)
 {
     struct fdl_counters c;
+    at_address(8);
     SILENT("68 0D 0D 68 08 09 06 61 62 63 64 65 66 67 68 69 6A 0E 16"); /* FC 06 is nobody's request */
     fdl_read_counters(&c);
     TEST_ASSERT_EQUAL_UINT16(0, c.checksum);

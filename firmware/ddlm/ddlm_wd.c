@@ -55,6 +55,7 @@ static void enter(uint8_t to)
 {
     state = to;
     quiet_ms = 0;
+    fdl_listen(to == DDLM_BAUD_SEARCH);
 }
 
 static void start_search(void)

@@ -6,10 +6,6 @@
 #include "hal/hal.h"
 #include "phy_uart/phy_uart.h"
 
-/* Body: DA SA FC [DAE] [SAE] L_sdu */
-#define DA 0u
-#define SA 1u
-#define FC 2u
 #define EXT_UNKNOWN 0xC0u /* further extension, region or segment address: not for a station without them */
 
 #define BUFFERS (1u + FDL_BOXES + FDL_KEPT_MAX + 1u) /* receiver, boxes, kept ones, one in exchange */
@@ -24,7 +20,7 @@ HOT struct fdl_req fdl_req;
 HOT uint8_t fdl_ts;
 
 static volatile HOT uint8_t heard;
-static HOT uint8_t watched;
+static uint8_t watched;
 
 static uint8_t XDATA memory[BUFFERS][FDL_BUF_LEN];
 static uint8_t XDATA *XDATA stock[BUFFERS]; /* free buffers: stock[0..in_stock-1] */
@@ -33,22 +29,43 @@ static uint8_t in_stock;
 /* Single producer (interrupt: box_in), single consumer (main loop: box_out); a box belongs to the main loop from the
  * moment box_in has passed it until box_out has. One octet each, so neither side can see half an index. */
 static struct box XDATA boxes[FDL_BOXES + 1u];
-static volatile uint8_t box_in;
-static volatile uint8_t box_out;
+static volatile IDATA uint8_t box_in;
+static volatile IDATA uint8_t box_out;
+
+/* The request being received. */
+static HOT uint8_t own;        /* not 0: a request to this station or to all */
+static HOT uint8_t unfit;      /* not 0: header or SAPs that no request to us can have */
+static HOT uint8_t to;         /* DA without its extension bit */
+static HOT uint8_t kind;    /* KIND_*, FDL_SDA, FDL_SDN, FDL_SRD; 0: no such   */
+
+static HOT bool skip; /* telegrams of others are of no interest */
+
+/* Functions other than these are unknown to a responder and get no answer (our choice: 7, MSRD, and the clock functions
+ * belong to DP-V2). */
+#define KIND_STATUS 0x40u
+#define KIND_HIGH   0x80u
+static const CODE uint8_t kinds[FDL_FC_FUNCTION + 1u] = {
+    [FDL_SDA_LOW] = FDL_SDA,         [FDL_SDN_LOW] = FDL_SDN,
+    [FDL_SDA_HIGH] = FDL_SDA | KIND_HIGH, [FDL_SDN_HIGH] = FDL_SDN | KIND_HIGH,
+    [FDL_STATUS] = KIND_STATUS,      [FDL_IDENT] = KIND_STATUS, [FDL_LSAP_STATUS] = KIND_STATUS,
+    [FDL_SRD_LOW] = FDL_SRD,         [FDL_SRD_HIGH] = FDL_SRD | KIND_HIGH,
+};
 
 /* The last numbered request and its answer. A frame is a retry only if it is the same frame: FCV, same SA, same FCB and
- * octet-identical, for which length, header, SAPs and FCS are compared. Masters that forget to restart the FCB after a
- * lost answer would otherwise be answered with stale data for ever (facts, section 0). */
+ * octet-identical, for which length, header, the two octets behind it (SAPs) and FCS are compared. Masters that forget
+ * to restart the FCB after a lost answer would otherwise be answered with stale data for ever (facts, section 0). */
 static struct {
-    bool valid;
-    uint8_t len;
-    uint8_t header[5]; /* DA SA FC and two octets more */
+    uint8_t len; /* 0: none */
+    uint8_t da;
+    uint8_t sa;
+    uint8_t fc;
+    uint8_t more[2];
     uint8_t fcs;
     const uint8_t XDATA *answer;
     uint8_t answer_len;
     struct fdl_reply XDATA *reply; /* the answer stands in its room; 0 = elsewhere */
     uint8_t turns;                 /* of reply, when the answer was built          */
-} XDATA last;
+} IDATA last;
 
 /* ---- buffers --------------------------------------------------------------------------------------------------------- */
 
@@ -87,7 +104,7 @@ static uint8_t box_isr(void) IN_ISR
     if (next == box_out)
         return FDL_RR;
     box->ind.service = fdl_req.service;
-    box->ind.high = fdl_req.high;
+    box->ind.high = (kinds[fdl_header.fc & FDL_FC_FUNCTION] & KIND_HIGH) != 0;
     box->ind.dsap = fdl_req.dsap;
     box->ind.ssap = fdl_req.ssap;
     box->ind.sa = fdl_req.sa;
@@ -142,31 +159,21 @@ static void refuse_isr(uint8_t function) IN_ISR
 
 /* ---- retries --------------------------------------------------------------------------------------------------------- */
 
-static bool same_as_last_isr(uint8_t len) IN_ISR
+static bool same_as_last_isr(void) IN_ISR
 {
-    const uint8_t XDATA *body = fdl_rx_buf + FDL_BODY;
-    uint8_t i;
-
-    if (!last.valid || len != last.len || fdl_req.sa != (last.header[SA] & 0x7Fu))
-        return false;
-    if (phy_rx.at[-2] != last.fcs)
-        return false;
-    for (i = 0; i < sizeof last.header && i < len; i++)
-        if (body[i] != last.header[i])
-            return false;
-    return true;
+    return fdl_header.fc == last.fc && fdl_header.fcs == last.fcs && fdl_header.len == last.len && fdl_header.da == last.da &&
+           fdl_header.sa == last.sa && fdl_header.more[0] == last.more[0] && fdl_header.more[1] == last.more[1];
 }
 
-static void remember_isr(uint8_t len) IN_ISR
+static void remember_isr(void) IN_ISR
 {
-    const uint8_t XDATA *body = fdl_rx_buf + FDL_BODY;
-    uint8_t i;
-
-    last.valid = true;
-    last.len = len;
-    last.fcs = phy_rx.at[-2];
-    for (i = 0; i < sizeof last.header; i++)
-        last.header[i] = body[i];
+    last.len = fdl_header.len;
+    last.da = fdl_header.da;
+    last.sa = fdl_header.sa;
+    last.fc = fdl_header.fc;
+    last.fcs = fdl_header.fcs;
+    last.more[0] = fdl_header.more[0];
+    last.more[1] = fdl_header.more[1];
 }
 
 /* Keep the answer just built for a retry. */
@@ -193,29 +200,30 @@ static void answer_again_isr(void) IN_ISR
 
 /* True: a retry, answered again. Otherwise the FCB is stored: FCV = 0 with FCB = 1 starts the sequence, FCV = 1 goes on
  * with it; FCV = 0 with FCB = 0 is not numbered and starts a sequence of nobody's. */
-static bool repeated_isr(uint8_t len) IN_ISR
+static bool repeated_isr(void) IN_ISR
 {
-    uint8_t fc = fdl_rx_buf[FDL_BODY + FC];
-
-    if ((fc & FDL_FC_FCV) && same_as_last_isr(len)) {
+    if ((fdl_header.fc & FDL_FC_FCV) && same_as_last_isr()) {
         fdl_counters.retries++;
         answer_again_isr();
         return true;
     }
-    remember_isr(len);
+    remember_isr();
     return false;
 }
 
 /* ---- services -------------------------------------------------------------------------------------------------------- */
 
+static struct fdl_sap XDATA *HOT row; /* of the request's SAP */
+
 /* The SAP's decision -> FDL_OK or the refusal. */
-static uint8_t indicate_isr(struct fdl_sap XDATA *row, bool whole) IN_ISR
+static uint8_t indicate_isr(void) IN_ISR
 {
-    if (!row || !(row->services & fdl_req.service))
+    row = fdl_sap_row_isr(fdl_req.dsap);
+    if (!row || !(row->services & kind))
         return FDL_RS;
     if (row->access != FDL_ALL && row->access != fdl_req.sa)
         return FDL_RS;
-    if (!whole || fdl_req.len > row->max_len)
+    if (!fdl_header.whole || fdl_req.len > row->max_len)
         return FDL_RR; /* our choice: the L_sdu is longer than the resource activated for it */
     fdl_req.reply = row->reply;
     switch (row->handling) {
@@ -228,22 +236,15 @@ static uint8_t indicate_isr(struct fdl_sap XDATA *row, bool whole) IN_ISR
     }
 }
 
-static void sdn_isr(bool whole) IN_ISR
-{
-    fdl_req.service = FDL_SDN;
-    indicate_isr(fdl_sap_row_isr(fdl_req.dsap), whole);
-}
-
 /* SDA and SRD. */
-static void acknowledged_isr(uint8_t service, uint8_t len, bool whole) IN_ISR
+static void acknowledged_isr(void) IN_ISR
 {
     uint8_t result;
 
-    if (repeated_isr(len))
+    if (repeated_isr())
         return;
-    fdl_req.service = service;
-    result = indicate_isr(fdl_sap_row_isr(fdl_req.dsap), whole);
-    if (result != FDL_OK || service != FDL_SRD)
+    result = indicate_isr();
+    if (result != FDL_OK || kind != FDL_SRD)
         fdl_req.reply = 0;
     if (result != FDL_OK)
         refuse_isr(result);
@@ -277,89 +278,81 @@ static void status_isr(uint8_t function) IN_ISR
 
 /* ---- telegram -------------------------------------------------------------------------------------------------------- */
 
-/* Address extension octets into fdl_req; false where they are none of ours. */
-static bool parse_saps_isr(uint8_t len) IN_ISR
+bool fdl_header_isr(void) IN_ISR
 {
-    const uint8_t XDATA *body = fdl_rx_buf + FDL_BODY;
-    uint8_t at = 3;
-
-    fdl_req.dsap = FDL_SAP_NIL;
-    fdl_req.ssap = FDL_SAP_NIL;
-    if (body[DA] & FDL_ADDRESS_EXT) {
-        if (at >= len || (body[at] & EXT_UNKNOWN))
-            return false;
-        fdl_req.dsap = body[at++];
-    }
-    if (body[SA] & FDL_ADDRESS_EXT) {
-        if (at >= len || (body[at] & EXT_UNKNOWN))
-            return false;
-        fdl_req.ssap = body[at++];
-    }
-    fdl_req.lsdu = fdl_rx_buf + FDL_BODY + at;
-    fdl_req.len = (uint8_t)(len - at);
+    own = 0;
+    to = fdl_header.da & 0x7Fu;
+    if (to != fdl_ts && to != FDL_BROADCAST)
+        return !skip;
+    own = fdl_header.fc & FDL_FC_REQUEST;
     return true;
 }
 
-/* Functions other than these are unknown to a responder and get no answer (our choice: 7, MSRD, and the clock functions
- * belong to DP-V2). */
-static void request_isr(uint8_t function, uint8_t len, bool whole) IN_ISR
+/* Body: DA SA FC [DAE] [SAE] L_sdu */
+void fdl_saps_isr(void) IN_ISR
 {
-    switch (function) {
-    case FDL_SDN_LOW:
-    case FDL_SDN_HIGH:
-        fdl_req.high = function == FDL_SDN_HIGH;
-        sdn_isr(whole);
-        break;
-    case FDL_SDA_LOW:
-    case FDL_SDA_HIGH:
-        fdl_req.high = function == FDL_SDA_HIGH;
-        acknowledged_isr(FDL_SDA, len, whole);
-        break;
-    case FDL_SRD_LOW:
-    case FDL_SRD_HIGH:
-        fdl_req.high = function == FDL_SRD_HIGH;
-        acknowledged_isr(FDL_SRD, len, whole);
-        break;
-    case FDL_STATUS:
-    case FDL_IDENT:
-    case FDL_LSAP_STATUS:
-        status_isr(function);
-        break;
-    default:
-        fdl_counters.format++;
-        break;
+    if (!own)
+        return;
+    fdl_req.lsdu = fdl_rx_buf + (FDL_BODY + 3u);
+    fdl_header.more[0] = fdl_req.lsdu[0];
+    fdl_header.more[1] = fdl_req.lsdu[1];
+    fdl_req.len = (uint8_t)(fdl_header.len - 3u);
+    fdl_req.dsap = FDL_SAP_NIL;
+    fdl_req.ssap = FDL_SAP_NIL;
+    unfit = 0;
+    if (fdl_header.da & FDL_ADDRESS_EXT) {
+        fdl_req.dsap = fdl_header.more[0];
+        unfit = fdl_req.dsap;
+        fdl_req.lsdu++;
+        fdl_req.len--;
     }
+    if (fdl_header.sa & FDL_ADDRESS_EXT) {
+        fdl_req.ssap = fdl_header.da & FDL_ADDRESS_EXT ? fdl_header.more[1] : fdl_header.more[0];
+        unfit |= fdl_req.ssap;
+        fdl_req.lsdu++;
+        fdl_req.len--;
+    }
+    unfit &= EXT_UNKNOWN;
 }
 
-static void own_request_isr(uint8_t len, bool whole) IN_ISR
+static void check_header_isr(void) IN_ISR
 {
-    const uint8_t XDATA *body = fdl_rx_buf + FDL_BODY;
-    bool broadcast = (body[DA] & 0x7Fu) == FDL_BROADCAST;
-    uint8_t function = body[FC] & FDL_FC_FUNCTION;
-    bool sdn = function == FDL_SDN_LOW || function == FDL_SDN_HIGH;
+    kind = kinds[fdl_header.fc & FDL_FC_FUNCTION] & (uint8_t)~KIND_HIGH;
+    fdl_req.service = kind;
+    fdl_req.sd3 = fdl_header.sd3;
+    fdl_req.sa = fdl_header.sa & 0x7Fu;
+    unfit |= fdl_header.fc & FDL_FC_RESERVED;
+    if (fdl_req.sa == FDL_BROADCAST)
+        unfit = 1;
+    if (to == FDL_BROADCAST && kind != FDL_SDN)
+        unfit = 1;
+    if (fdl_req.len > FDL_LE_MAX) /* below 0: the SAPs are not there */
+        unfit = 1;
+}
 
-    fdl_req.sa = body[SA] & 0x7Fu;
-    fdl_req.sd3 = fdl_rx_buf[0] == FDL_SD3;
-    if ((body[FC] & FDL_FC_RESERVED) || fdl_req.sa == FDL_BROADCAST || (broadcast && !sdn) || !parse_saps_isr(len)) {
+void fdl_telegram_isr(void) IN_ISR
+{
+    heard |= FDL_HEARD_ANY;
+    if (!own) {
+        fdl_counters.foreign++;
+        return;
+    }
+    check_header_isr();
+    if (unfit) {
         fdl_counters.format++;
         return;
     }
     fdl_counters.requests++;
-    if (!broadcast)
+    if (to != FDL_BROADCAST)
         heard |= fdl_req.sa == watched ? FDL_HEARD_OWN | FDL_HEARD_OWNER : FDL_HEARD_OWN;
-    request_isr(function, len, whole);
-}
-
-void fdl_telegram_isr(uint8_t len, bool whole) IN_ISR
-{
-    const uint8_t XDATA *body = fdl_rx_buf + FDL_BODY;
-    uint8_t da = body[DA] & 0x7Fu;
-
-    heard |= FDL_HEARD_ANY;
-    if ((da == fdl_ts || da == FDL_BROADCAST) && (body[FC] & FDL_FC_REQUEST))
-        own_request_isr(len, whole);
+    if (kind == FDL_SRD || kind == FDL_SDA)
+        acknowledged_isr();
+    else if (kind == FDL_SDN)
+        indicate_isr();
+    else if (kind == KIND_STATUS)
+        status_isr(fdl_header.fc & FDL_FC_FUNCTION);
     else
-        fdl_counters.foreign++;
+        fdl_counters.format++;
 }
 
 void fdl_other_isr(void) IN_ISR
@@ -377,6 +370,11 @@ uint8_t fdl_heard(void)
     heard = 0;
     hal_irq_restore(irq);
     return was;
+}
+
+void fdl_listen(bool all)
+{
+    skip = !all;
 }
 
 void fdl_watch(uint8_t station)
@@ -397,7 +395,7 @@ void fdl_set_address(uint8_t ts)
     uint8_t irq = hal_irq_save();
 
     fdl_ts = ts;
-    last.valid = false;
+    last.len = 0;
     hal_irq_restore(irq);
 }
 
@@ -416,8 +414,9 @@ void fdl_reset(uint8_t ts)
     box_out = 0;
     heard = 0;
     watched = FDL_ALL;
+    skip = false;
     fdl_ts = ts;
-    last.valid = false;
+    last.len = 0;
     fdl_rx_reset();
     fdl_sap_reset();
     hal_irq_restore(irq);

@@ -78,6 +78,11 @@ void fdl_read_counters(struct fdl_counters XDATA *to);
 /* FDL_HEARD_* since the last call. main. */
 uint8_t fdl_heard(void);
 
+/* true: telegrams to other stations are received to their end, checked and heard (FDL_HEARD_ANY); so it is after
+ * fdl_reset(). false: the receiver stops at their header, and a fault in the rest of them is not counted. Half of a busy
+ * bus is for others: on an 8-bit part that is half of its time. On a line that cannot show silence it has no effect. main. */
+void fdl_listen(bool all);
+
 /* Whose telegrams count as FDL_HEARD_OWNER: 0..126, or FDL_ALL for nobody's. main. */
 void fdl_watch(uint8_t station);
 
@@ -110,24 +115,24 @@ void fdl_data_ind(const struct fdl_ind XDATA *ind);
 
 /* An update buffer: the answer to the next SRD. Three rooms turn: one was sent last (and is kept for the master's
  * retry), one is ready, one is being written by the main loop.
- * Invariant: sent, ready and spare are a permutation of 0, 1, 2. */
-#define FDL_ROOM_HEAD 9u /* 68 LE LEr 68 DA SA FC DAE SAE */
-#define FDL_ROOM_TAIL 2u /* FCS 16 */
+ *
+ *   room   | length sum | SD LE LEr SD DA SA FC DAE SAE | L_sdu ......... | FCS ED |
+ *
+ * Invariant: sent, ready and spare are the three rooms, in any order. */
+#define FDL_ROOM_HEAD 11u
+#define FDL_ROOM_TAIL 2u
 #define FDL_ROOM(lsdu_max) ((lsdu_max) + FDL_ROOM_HEAD + FDL_ROOM_TAIL)
 struct fdl_reply {
-    uint8_t XDATA *room[3]; /* FDL_ROOM(max) octets each */
-    uint8_t len[3];
-    uint8_t sum[3]; /* of the L_sdu, mod 256 */
-    uint8_t max;    /* longest L_sdu */
-    uint8_t sent;
-    uint8_t ready;
-    uint8_t spare;
-    uint8_t turns; /* how often `sent` has become another room */
-    bool valid;  /* there is something to answer with                             */
-    bool fresh;  /* ready is newer than sent                                       */
-    bool hold;   /* keep on answering with sent (DP: freeze)                       */
-    bool high;   /* answer DH instead of DL                                        */
-    bool single; /* Transmit = single: gone once sent                               */
+    uint8_t XDATA *sent;
+    uint8_t XDATA *ready;
+    uint8_t XDATA *spare;
+    uint8_t max;    /* longest L_sdu                                               */
+    uint8_t turns;  /* counts how often sent has changed                            */
+    bool valid;     /* there is something to answer with                            */
+    bool fresh;     /* ready is newer than sent                                      */
+    bool hold;      /* keep on answering with sent (DP: freeze)                      */
+    bool high;      /* answer DH instead of DL                                       */
+    bool single;    /* Transmit = single: gone once sent                             */
 };
 
 /* Bind a reply to three rooms of FDL_ROOM(max) octets laid one after the other at rooms; empty. max 0..246; asked with
@@ -176,11 +181,10 @@ void fdl_reply_release_isr(struct fdl_reply XDATA *reply) IN_ISR;
 
 struct fdl_req {
     uint8_t service; /* FDL_SDA, FDL_SDN, FDL_SRD */
-    uint8_t high;    /* 0, 1 (no bool in HOT structs: see check.h) */
     uint8_t dsap;
     uint8_t ssap;
     uint8_t sa;
-    uint8_t sd3;              /* came as an SD3: our choice: then eight octets go back as an SD3, else as an SD2 as all
+    uint8_t sd3;     /* 0, 1 (no bool in HOT structs: see check.h): came as an SD3: our choice: then eight octets go back as an SD3, else as an SD2 as all
                                  recorded stations do */
     uint8_t len;              /* of lsdu; the telegram may have been longer: then it was refused */
     uint8_t XDATA *lsdu;

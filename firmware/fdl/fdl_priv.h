@@ -14,12 +14,32 @@ extern struct fdl_counters XDATA fdl_counters;
 
 extern uint8_t XDATA *HOT fdl_rx_buf; /* telegram being received; replaced only from fdl_telegram_isr() */
 
+/* The telegram being received. In internal RAM, and handed on by name: SDCC keeps arguments and pointers that do not
+ * fit its registers in external RAM, at four times the price. */
+struct fdl_header {
+    uint8_t len;     /* DA..last DU octet, 3..249                                                       */
+    uint8_t da;
+    uint8_t sa;
+    uint8_t fc;
+    uint8_t more[2]; /* the octets behind these (of a body of three or four: FCS and ED); set by fdl.c  */
+    uint8_t fcs;     /* at its end                                                                      */
+    uint8_t sd3;     /* 1: it is an SD3                                                                 */
+    uint8_t whole;   /* 0: longer than FDL_BODY_MAX, only DA SA FC and more[] are to be trusted         */
+};
+extern HOT struct fdl_header fdl_header;
+
 /* Forget what was being received. main with interrupts masked. */
 void fdl_rx_reset(void);
 
-/* Implemented by fdl.c: fdl_rx_buf holds a telegram with good FCS and ED, body octets 0..len-1 from DA on, len 3..249.
- * Not whole: it was longer than FDL_BODY_MAX, only DA SA FC DAE SAE are to be trusted. */
-void fdl_telegram_isr(uint8_t len, bool whole) IN_ISR;
+/* Implemented by fdl.c: len, DA SA FC have been received, FCS not yet checked: nothing may be done that lasts. True: go
+ * on; false: nobody here wants the rest, hear nothing until the next T_SYN. */
+bool fdl_header_isr(void) IN_ISR;
+
+/* Implemented by fdl.c: the two octets behind the header are there, too. FCS not yet checked. */
+void fdl_saps_isr(void) IN_ISR;
+
+/* Implemented by fdl.c: fdl_rx_buf holds a telegram with good FCS and ED, its body from fdl_rx_buf[FDL_BODY] on. */
+void fdl_telegram_isr(void) IN_ISR;
 
 /* Implemented by fdl.c: a token or a short acknowledge went by. */
 void fdl_other_isr(void) IN_ISR;
@@ -29,8 +49,9 @@ void fdl_other_isr(void) IN_ISR;
 struct fdl_frame {
     const uint8_t XDATA *at;
     uint8_t len;
+    uint8_t function;
 };
-extern struct fdl_frame XDATA fdl_tx; /* the answer built last */
+extern IDATA struct fdl_frame fdl_tx; /* the answer built last */
 
 /* Build an answer to fdl_req from station ts into fdl_tx. */
 void fdl_tx_short_isr(void) IN_ISR;                           /* SC                                        */

@@ -11,31 +11,41 @@
 /* What is awaited next. */
 enum rx_state {
     RX_SYN,      /* T_SYN of silence: the receiver is deaf                    */
-    RX_SD,       /* a start delimiter                                         */
-    RX_SD2_HEAD, /* LE LEr SD2                                                */
-    RX_TOKEN,    /* DA SA of a token                                          */
+    RX_ALONE,    /* a start delimiter, on a line that cannot show silence     */
+    RX_SD,       /* a start delimiter and the octet behind it                 */
+    RX_SD2_HEAD, /* LEr SD2                                                   */
+    RX_HEADER,   /* what is left of DA SA FC                                  */
+    RX_SAPS,     /* DAE SAE                                                   */
+    RX_TOKEN,    /* SA of a token                                             */
     RX_PIECE,    /* a piece of a telegram that is longer than the buffer      */
     RX_BODY,     /* the rest, up to ED                                        */
 };
 
 uint8_t XDATA *HOT fdl_rx_buf;
+HOT struct fdl_header fdl_header;
 
 static HOT uint8_t state;
-static HOT uint8_t body_len; /* DA..last DU octet                    */
 static HOT uint8_t missing;  /* octets of body, FCS and ED to come   */
 
-#define HEADER_LEN 5u /* DA SA FC DAE SAE: kept even of a telegram that is too long */
-#define TAIL_LEN   2u /* FCS ED */
+#define HEADER_LEN 3u /* DA SA FC            */
+#define KEPT_LEN   5u /* DA SA FC and two more: kept even of a telegram that is too long */
+#define TAIL_LEN   2u /* FCS ED              */
 
 void fdl_rx_reset(void)
 {
     state = RX_SYN;
 }
 
+/* Two octets: at 187.5 kbit/s an 8-bit part has no time to look at each. Only the short acknowledge is shorter, and is
+ * known by the silence behind it; where none can be seen, one octet must do. */
 static uint8_t wait_sd_isr(void) IN_ISR
 {
     phy_rx.at = fdl_rx_buf;
-    phy_gather_isr(1);
+    if (phy_rx.untimed) {
+        phy_rx.left = 1;
+        return RX_ALONE;
+    }
+    phy_rx.left = 2;
     return RX_SD;
 }
 
@@ -54,32 +64,55 @@ static uint8_t drop_isr(void) IN_ISR
     return RX_SYN;
 }
 
-/* The body, FCS and ED, in pieces where they are longer than the buffer: the header stays, what follows it is
- * overwritten by the next piece (the telegram will be refused; its FCS is still checked). */
-static uint8_t want_body_isr(void) IN_ISR
+/* The rest, in pieces where it is longer than the buffer: what is kept stays, what follows it is overwritten by the
+ * next piece (the telegram will be refused; its FCS is still checked). */
+static uint8_t want_rest_isr(void) IN_ISR
 {
-    const uint8_t room = (uint8_t)(FDL_BUF_LEN - FDL_BODY - HEADER_LEN);
+    const uint8_t room = (uint8_t)(FDL_BUF_LEN - FDL_BODY - KEPT_LEN);
 
     if (missing <= room) {
-        phy_gather_isr(missing);
+        phy_rx.left = missing;
         return RX_BODY;
     }
-    phy_gather_isr((uint8_t)(room - TAIL_LEN));
+    phy_rx.left = room - TAIL_LEN;
     missing = (uint8_t)(missing - (room - TAIL_LEN));
     return RX_PIECE;
 }
 
-static uint8_t start_body_isr(void) IN_ISR
+/* DA SA FC are there. They are looked at now, while the rest comes in: what is decided here costs no T_SDR. */
+static uint8_t header_isr(void) IN_ISR
 {
-    phy_rx.at = fdl_rx_buf + FDL_BODY;
-    phy_rx.sum = 0;
-    if (body_len <= FDL_BODY_MAX) {
-        phy_gather_isr((uint8_t)(body_len + TAIL_LEN));
-        return RX_BODY;
+    fdl_header.da = fdl_rx_buf[FDL_BODY];
+    fdl_header.sa = fdl_rx_buf[FDL_BODY + 1u];
+    fdl_header.fc = fdl_rx_buf[FDL_BODY + 2u];
+    phy_rx.sum = (uint8_t)(fdl_header.da + fdl_header.sa + fdl_header.fc);
+    if (!fdl_header_isr() && !phy_rx.untimed) {
+        fdl_other_isr();
+        return drop_isr();
     }
-    missing = (uint8_t)(body_len + TAIL_LEN - HEADER_LEN);
-    phy_gather_isr(HEADER_LEN);
-    return RX_PIECE;
+    if (fdl_header.len >= KEPT_LEN) {
+        phy_rx.left = KEPT_LEN - HEADER_LEN;
+        return RX_SAPS;
+    }
+    phy_rx.left = (uint8_t)(fdl_header.len - HEADER_LEN + TAIL_LEN);
+    return RX_BODY;
+}
+
+/* DA is there, for formats that begin with it. */
+static uint8_t start_body_isr(uint8_t len) IN_ISR
+{
+    fdl_header.len = len;
+    fdl_rx_buf[FDL_BODY] = fdl_rx_buf[1];
+    phy_rx.at = fdl_rx_buf + (FDL_BODY + 1u);
+    phy_rx.left = HEADER_LEN - 1u;
+    return RX_HEADER;
+}
+
+static uint8_t bad_sd_isr(void) IN_ISR
+{
+    fdl_counters.sd_count--;
+    fdl_counters.sd_error_count++;
+    return drop_isr();
 }
 
 static uint8_t st_sd_isr(void) IN_ISR
@@ -87,73 +120,99 @@ static uint8_t st_sd_isr(void) IN_ISR
     uint8_t sd = fdl_rx_buf[0];
 
     fdl_counters.sd_count++;
-    switch (sd) {
-    case FDL_SD1:
-        body_len = 3;
-        return start_body_isr();
-    case FDL_SD2:
-        phy_gather_isr(3);
+    fdl_header.sd3 = 0;
+    if (sd == FDL_SD2) {
+        phy_rx.left = 2;
         return RX_SD2_HEAD;
-    case FDL_SD3:
-        body_len = 3 + FDL_SD3_DU;
-        return start_body_isr();
-    case FDL_SD4:
-        phy_gather_isr(2);
+    }
+    if (sd == FDL_SD1)
+        return start_body_isr(HEADER_LEN);
+    if (sd == FDL_SD3) {
+        fdl_header.sd3 = 1;
+        return start_body_isr(HEADER_LEN + FDL_SD3_DU);
+    }
+    if (sd == FDL_SD4) {
+        phy_rx.left = 1;
         return RX_TOKEN;
-    case FDL_SC:
+    }
+    if (sd == FDL_SC) {
         fdl_other_isr();
         return telegram_end_isr();
-    default:
-        fdl_counters.sd_count--;
-        fdl_counters.sd_error_count++;
-        return drop_isr();
     }
+    return bad_sd_isr();
+}
+
+/* All but the short acknowledge have an octet more. */
+static uint8_t st_alone_isr(void) IN_ISR
+{
+    if (fdl_rx_buf[0] == FDL_SC)
+        return st_sd_isr();
+    phy_rx.left = 1;
+    return RX_SD;
 }
 
 static uint8_t st_sd2_head_isr(void) IN_ISR
 {
-    uint8_t le = fdl_rx_buf[1];
-
-    if (le != fdl_rx_buf[2] || le < FDL_LE_MIN || le > FDL_LE_MAX || fdl_rx_buf[3] != FDL_SD2) {
+    fdl_header.len = fdl_rx_buf[1];
+    if (fdl_header.len != fdl_rx_buf[2] || fdl_header.len < FDL_LE_MIN || fdl_header.len > FDL_LE_MAX ||
+        fdl_rx_buf[3] != FDL_SD2) {
         fdl_counters.format++;
         return drop_isr();
     }
-    body_len = le;
-    return start_body_isr();
+    phy_rx.left = HEADER_LEN;
+    return RX_HEADER;
 }
 
 static uint8_t st_piece_isr(void) IN_ISR
 {
-    phy_rx.at = fdl_rx_buf + FDL_BODY + HEADER_LEN;
-    return want_body_isr();
+    phy_rx.at = fdl_rx_buf + FDL_BODY + KEPT_LEN;
+    return want_rest_isr();
+}
+
+static uint8_t st_saps_isr(void) IN_ISR
+{
+    fdl_saps_isr();
+    missing = (uint8_t)(fdl_header.len - (KEPT_LEN - TAIL_LEN));
+    return want_rest_isr();
 }
 
 static uint8_t st_body_isr(void) IN_ISR
 {
-    const uint8_t XDATA *end = phy_rx.at;
-    uint8_t ed = end[-1];
-    uint8_t fcs = end[-2];
-
-    if (ed != FDL_ED) {
+    fdl_header.fcs = phy_rx.at[-2];
+    if (phy_rx.at[-1] != FDL_ED) {
         fdl_counters.format++;
         return drop_isr();
     }
-    if ((uint8_t)(phy_rx.sum - ed - fcs) != fcs) {
+    if ((uint8_t)(phy_rx.sum - FDL_ED - fdl_header.fcs) != fdl_header.fcs) {
         fdl_counters.checksum++;
         return drop_isr();
     }
-    fdl_telegram_isr(body_len, body_len <= FDL_BODY_MAX);
+    if (fdl_header.len < KEPT_LEN)
+        fdl_saps_isr();
+    fdl_header.whole = 1;
+    if (fdl_header.len > FDL_BODY_MAX)
+        fdl_header.whole = 0;
+    fdl_telegram_isr();
     return telegram_end_isr();
 }
 
 void phy_chunk_ind_isr(void) IN_ISR
 {
     switch (state) {
+    case RX_ALONE:
+        state = st_alone_isr();
+        break;
     case RX_SD:
         state = st_sd_isr();
         break;
     case RX_SD2_HEAD:
         state = st_sd2_head_isr();
+        break;
+    case RX_HEADER:
+        state = header_isr();
+        break;
+    case RX_SAPS:
+        state = st_saps_isr();
         break;
     case RX_TOKEN:
         fdl_other_isr();
@@ -173,6 +232,8 @@ void phy_chunk_ind_isr(void) IN_ISR
 
 void phy_syn_ind_isr(void) IN_ISR
 {
+    if (state == RX_SD && phy_rx.left == 1)
+        state = st_sd_isr(); /* one octet and then silence: a short acknowledge, or nothing that makes sense */
     if (state > RX_SD)
         fdl_counters.gap++;
     state = wait_sd_isr();

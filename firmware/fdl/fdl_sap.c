@@ -92,18 +92,12 @@ bool fdl_sap_clear(uint8_t sap)
 
 void fdl_reply_init(struct fdl_reply XDATA *reply, uint8_t XDATA *rooms, uint8_t max)
 {
-    uint8_t i;
+    uint8_t XDATA *second = rooms + FDL_ROOM(max);
 
-    for (i = 0; i < 3; i++) {
-        reply->room[i] = rooms;
-        reply->len[i] = 0;
-        reply->sum[i] = 0;
-        rooms += FDL_ROOM(max);
-    }
+    reply->sent = rooms;
+    reply->ready = second;
+    reply->spare = second + FDL_ROOM(max);
     reply->max = max;
-    reply->sent = 0;
-    reply->ready = 1;
-    reply->spare = 2;
     reply->turns = 0;
     reply->valid = false;
     reply->fresh = false;
@@ -114,21 +108,21 @@ void fdl_reply_init(struct fdl_reply XDATA *reply, uint8_t XDATA *rooms, uint8_t
 
 void fdl_reply_write(struct fdl_reply XDATA *reply, const uint8_t XDATA *lsdu, uint8_t len, uint8_t how)
 {
-    uint8_t i = reply->spare;
-    uint8_t XDATA *room = reply->room[i] + FDL_ROOM_HEAD;
+    uint8_t XDATA *room = reply->spare;
+    uint8_t XDATA *to = room + FDL_ROOM_HEAD;
     uint8_t sum = 0;
     uint8_t n;
     uint8_t irq;
 
     for (n = len; n; n--) {
         sum = (uint8_t)(sum + *lsdu);
-        *room++ = *lsdu++;
+        *to++ = *lsdu++;
     }
-    reply->len[i] = len;
-    reply->sum[i] = sum;
+    room[0] = len;
+    room[1] = sum;
     irq = hal_irq_save();
     reply->spare = reply->ready;
-    reply->ready = i;
+    reply->ready = room;
     reply->fresh = true;
     reply->valid = true;
     if (!(how & FDL_UPDATE_KEEP))
@@ -184,7 +178,8 @@ static uint8_t role_isr(bool active) IN_ISR
 struct fdl_reply XDATA *fdl_lsap_reply_isr(void) IN_ISR
 {
     struct fdl_sap XDATA *row = fdl_sap_row_isr(fdl_req.dsap);
-    uint8_t XDATA *data = lsap.room[0] + FDL_ROOM_HEAD;
+    uint8_t XDATA *data = lsap.sent + FDL_ROOM_HEAD;
+    uint8_t sum = 0;
     bool srd;
     uint8_t i;
 
@@ -197,10 +192,10 @@ struct fdl_reply XDATA *fdl_lsap_reply_isr(void) IN_ISR
     data[3] = TYPE_SDN | role_isr((row->services & FDL_SDN) != 0);
     data[4] = TYPE_SRD | role_isr(srd);
     data[5] = TYPE_CSRD | role_isr(srd);
-    lsap.sum[0] = 0;
     for (i = 0; i < LSAP_LEN; i++)
-        lsap.sum[0] = (uint8_t)(lsap.sum[0] + data[i]);
-    lsap.len[0] = LSAP_LEN;
+        sum = (uint8_t)(sum + data[i]);
+    lsap.sent[0] = LSAP_LEN;
+    lsap.sent[1] = sum;
     lsap.valid = true;
     return &lsap;
 }

@@ -10,7 +10,7 @@
  */
 #include "fdl/fdl_priv.h"
 
-struct fdl_frame XDATA fdl_tx;
+IDATA struct fdl_frame fdl_tx;
 
 /* An SD1 that answers a numbered request (FCB) is kept for the retry, so status answers have a room of their own. */
 static uint8_t XDATA numbered[6];
@@ -48,7 +48,7 @@ void fdl_tx_short_isr(void) IN_ISR
 
 void fdl_reply_release_isr(struct fdl_reply XDATA *reply) IN_ISR
 {
-    uint8_t sent;
+    uint8_t XDATA *sent;
 
     if (!reply->fresh)
         return;
@@ -57,37 +57,6 @@ void fdl_reply_release_isr(struct fdl_reply XDATA *reply) IN_ISR
     reply->ready = sent;
     reply->turns++;
     reply->fresh = false;
-}
-
-static uint8_t XDATA *head; /* first octet of the header so far  */
-static uint8_t head_sum;    /* of DA SA FC DAE SAE and the L_sdu */
-
-/* SAP octets, mirrored: the requester's SSAP is our DAE. */
-static void put_saps_isr(void) IN_ISR
-{
-    if (fdl_req.dsap != FDL_SAP_NIL) {
-        *--head = fdl_req.dsap;
-        head_sum = (uint8_t)(head_sum + fdl_req.dsap);
-    }
-    if (fdl_req.ssap != FDL_SAP_NIL) {
-        *--head = fdl_req.ssap;
-        head_sum = (uint8_t)(head_sum + fdl_req.ssap);
-    }
-}
-
-static void put_addresses_isr(uint8_t function) IN_ISR
-{
-    uint8_t sa = fdl_ts;
-    uint8_t da = fdl_req.sa;
-
-    if (fdl_req.dsap != FDL_SAP_NIL)
-        sa |= FDL_ADDRESS_EXT;
-    if (fdl_req.ssap != FDL_SAP_NIL)
-        da |= FDL_ADDRESS_EXT;
-    *--head = function;
-    *--head = sa;
-    *--head = da;
-    head_sum = (uint8_t)(head_sum + function + sa + da);
 }
 
 /* No L_sdu: an SD1 says "diagnosis pending" where an SC could not (spec A3; facts 3.9); SC is "no reply data". */
@@ -99,50 +68,100 @@ static void tx_empty_isr(bool high) IN_ISR
         fdl_tx_short_isr();
 }
 
+/* By name and in internal RAM, not as arguments: see struct fdl_header. */
+static struct fdl_reply XDATA *HOT from;
+static uint8_t XDATA *HOT lsdu;
+static uint8_t XDATA *HOT at;
+static HOT uint8_t len; /* of the L_sdu                      */
+static HOT uint8_t le;  /* of DA SA FC DAE SAE and the L_sdu */
+static HOT uint8_t da;
+static HOT uint8_t sa;
+static HOT uint8_t sum;
+
+/* SAP octets are mirrored: the requester's SSAP is our DAE. */
+static void measure_isr(void) IN_ISR
+{
+    da = fdl_req.sa;
+    sa = fdl_ts;
+    le = (uint8_t)(len + 3u);
+    if (fdl_req.ssap != FDL_SAP_NIL) {
+        da |= FDL_ADDRESS_EXT;
+        le++;
+    }
+    if (fdl_req.dsap != FDL_SAP_NIL) {
+        sa |= FDL_ADDRESS_EXT;
+        le++;
+    }
+}
+
+static void put_saps_isr(void) IN_ISR
+{
+    if (da & FDL_ADDRESS_EXT) {
+        *at = fdl_req.ssap;
+        sum = (uint8_t)(sum + fdl_req.ssap);
+        at++;
+    }
+    if (sa & FDL_ADDRESS_EXT) {
+        *at = fdl_req.dsap;
+        sum = (uint8_t)(sum + fdl_req.dsap);
+    }
+}
+
+/* SD2, or SD3 where it was asked so and fits: around the L_sdu, whose length and sum are known. */
+static void frame_isr(void) IN_ISR
+{
+    at = lsdu - (uint8_t)(le - len);
+    at[0] = da;
+    at[1] = sa;
+    at[2] = fdl_tx.function;
+    sum = (uint8_t)(sum + da + sa + fdl_tx.function);
+    at -= 4;
+    fdl_tx.len = (uint8_t)(le + 6u);
+    if (fdl_req.sd3 && le == 3u + FDL_SD3_DU) {
+        at += 3;
+        fdl_tx.len = (uint8_t)(le + 3u);
+        at[0] = FDL_SD3;
+    } else {
+        at[0] = FDL_SD2;
+        at[1] = le;
+        at[2] = le;
+        at[3] = FDL_SD2;
+    }
+    fdl_tx.at = at;
+    if (le != len + 3u) {
+        at = lsdu - (uint8_t)(le - len - 3u);
+        put_saps_isr();
+    }
+    at = lsdu + len;
+    at[0] = sum;
+    at[1] = FDL_ED;
+}
+
 void fdl_tx_reply_isr(struct fdl_reply XDATA *reply) IN_ISR
 {
-    uint8_t XDATA *lsdu;
-    uint8_t len;
-    uint8_t le;
-    uint8_t i;
-
-    if (!reply->hold)
-        fdl_reply_release_isr(reply);
-    i = reply->sent;
-    len = reply->len[i];
-    if (!reply->valid) {
+    from = reply;
+    if (!from->valid) {
         fdl_tx_short_isr();
         return;
     }
-    if (reply->single)
-        reply->valid = false;
+    if (!from->hold && from->fresh)
+        fdl_reply_release_isr(from);
+    if (from->single)
+        from->valid = false;
+    lsdu = from->sent;
+    len = lsdu[0];
+    sum = lsdu[1];
+    lsdu += FDL_ROOM_HEAD;
     if (len == 0) {
-        tx_empty_isr(reply->high);
+        tx_empty_isr(from->high);
         return;
     }
-    le = (uint8_t)(len + (fdl_req.dsap != FDL_SAP_NIL) + (fdl_req.ssap != FDL_SAP_NIL));
-    if (le > FDL_LE_MAX - 3u) {
+    measure_isr();
+    if (le > FDL_LE_MAX || le < len) {
         fdl_counters.refused++;
         fdl_tx_fixed_isr(FDL_UE); /* our choice: asked with SAPs, they leave no room for so many data */
         return;
     }
-
-    lsdu = reply->room[i] + FDL_ROOM_HEAD;
-    head = lsdu;
-    head_sum = reply->sum[i];
-    put_saps_isr();
-    put_addresses_isr(reply->high ? FDL_DH : FDL_DL);
-    if (fdl_req.sd3 && le == FDL_SD3_DU) {
-        *--head = FDL_SD3;
-    } else {
-        le += 3;
-        *--head = FDL_SD2;
-        *--head = le;
-        *--head = le;
-        *--head = FDL_SD2;
-    }
-    lsdu[len] = head_sum;
-    lsdu[len + 1u] = FDL_ED;
-    fdl_tx.at = head;
-    fdl_tx.len = (uint8_t)(&lsdu[len] - head + 2);
+    fdl_tx.function = from->high ? FDL_DH : FDL_DL;
+    frame_isr();
 }

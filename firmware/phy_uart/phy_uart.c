@@ -24,15 +24,14 @@ HOT volatile struct phy_rx phy_rx;
 /* Invariant: at most one of phy_rx.waiting and sending is set. */
 static HOT volatile struct {
     uint8_t sending;
-    uint8_t untimed;    /* the line cannot show silence     */
     uint8_t transmitter; /* Transmitter_output is enabled */
 } line;
 
 static uint16_t t_syn_tbit;
 static hal_dur_t t_syn;
-static hal_dur_t t_sdr;
-static const uint8_t XDATA *answer;
-static uint8_t answer_len;
+static HOT hal_dur_t t_sdr;
+static const uint8_t XDATA *HOT answer;
+static HOT uint8_t answer_len;
 
 static uint8_t value_of[PHY_VARIABLES];
 static uint8_t min_t_sdr;
@@ -54,7 +53,7 @@ void phy_deaf_isr(void) IN_ISR
 bool phy_telegram_end_isr(void) IN_ISR
 {
     phy_rx.left = 0;
-    return line.untimed;
+    return phy_rx.untimed;
 }
 
 void phy_answer_isr(const uint8_t XDATA *frame, uint8_t n) IN_ISR
@@ -111,7 +110,7 @@ void line_sent_isr(void) IN_ISR
         return; /* the line was closed meanwhile */
     line.sending = false;
     hal_silence(t_syn);
-    if (line.untimed)
+    if (phy_rx.untimed)
         phy_syn_ind_isr();
 }
 
@@ -130,7 +129,7 @@ static void set_times(void)
 
 static uint16_t gap_tbit(uint32_t bit_per_s)
 {
-    uint32_t n = line.untimed ? bit_per_s / UNTIMED_GAPS_PER_S : 0;
+    uint32_t n = phy_rx.untimed ? bit_per_s / UNTIMED_GAPS_PER_S : 0;
 
     if (n < PHY_T_SYN_TBIT)
         return PHY_T_SYN_TBIT;
@@ -149,7 +148,7 @@ static uint8_t open_line(uint8_t baud, uint8_t loop)
     irq = hal_irq_save();
     kind = hal_line_open(phy_bit_per_s(baud), format);
     if (kind != HAL_LINE_NO) {
-        line.untimed = kind == HAL_LINE_UNTIMED;
+        phy_rx.untimed = kind == HAL_LINE_UNTIMED;
         phy_rx.waiting = false;
         line.sending = false;
         phy_rx.left = 0;

@@ -73,6 +73,7 @@ struct phy_rx {
     uint8_t left;      /* octets missing                                   */
     uint8_t sum;       /* of all octets since it was last cleared, mod 256 */
     uint8_t waiting;   /* an answer waits for T_SDR: an octet cancels it   */
+    uint8_t untimed;   /* the line cannot show silence (a pty)             */
 };
 extern HOT volatile struct phy_rx phy_rx;
 

@@ -1,6 +1,8 @@
 /* Octets by the chunk to phy_uart: what line_octet_isr() does with an octet of a chunk, without the call.
  *
- * In burst the interrupt stays until nobody wants an octet any more or the line has fallen silent.
+ * In burst the interrupt stays until nobody wants an octet any more or the line has fallen silent. The loop for it is
+ * in assembly: 27 machine cycles an octet, of the 59 that 187.5 kbit/s at 12 MHz leaves; what a chunk's end costs more
+ * than that is caught up with by the octets behind it.
  */
 #include <8052.h>
 
@@ -20,21 +22,83 @@ static void store_isr(void) __using(2)
         phy_chunk_ind_isr();
 }
 
+/* Octets straight from SBUF into the chunk, 8E1, until it is full, the line is silent (TF0), or an octet is bad:
+ * then it is in octet and octet_err. Layout of struct phy_rx: at, at + 1, left, sum. */
+static void fill_isr(void) __using(2) __naked
+{
+    __asm
+        mov dpl,_phy_rx
+        mov dph,(_phy_rx + 1)
+        mov r7,(_phy_rx + 2)
+        mov r6,(_phy_rx + 3)
+        mov _octet_err,#0
+        clr _endless
+        setb _armed
+        .globl _fill_wait
+    _fill_wait:
+    00001$:
+        jb _RI,00002$
+        jnb _TF0,00001$
+        sjmp 00005$
+    00002$:
+        mov a,_SBUF
+        clr _RI
+        clr _TR0
+        mov _TL0,_reload_low
+        mov _TH0,_reload_high
+        clr _TF0
+        setb _TR0
+        mov c,_P
+        jnb _RB8,00003$
+        cpl c
+    00003$:
+        jc 00004$
+        movx @dptr,a
+        inc dptr
+        add a,r6
+        mov r6,a
+        djnz r7,00001$
+        sjmp 00005$
+    00004$:
+        mov _octet_err,#1 ; HAL_ERR_PARITY
+    00005$:
+        mov _phy_rx,dpl
+        mov (_phy_rx + 1),dph
+        mov (_phy_rx + 2),r7
+        mov (_phy_rx + 3),r6
+        ret
+    __endasm;
+}
+
+void burst_isr(void) __using(2)
+{
+    while (phy_rx.left) {
+        fill_isr();
+        if (phy_rx.left == 0)
+            phy_chunk_ind_isr();
+        else if (octet_err)
+            line_octet_isr(octet, octet_err);
+        else
+            break;
+    }
+    silence_now_isr();
+    look_isr();
+}
+
 void take_isr(void) __using(2)
 {
-    for (;;) {
-        store_isr();
-        if (!burst || held_any || phy_rx.left == 0)
-            break;
-        while (!RI)
-            if (TF0)
-                return;
-        receive_isr();
-    }
+    store_isr();
     look_isr();
 }
 
 void look_isr(void) __using(2)
 {
-    deaf = phy_rx.left == 0 && !phy_rx.waiting && !sending;
+    deaf = 0;
+    eager = 0;
+    if (phy_rx.waiting || sending)
+        return;
+    if (phy_rx.left == 0)
+        deaf = 1;
+    else if (burst)
+        eager = 1;
 }

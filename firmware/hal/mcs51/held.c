@@ -17,9 +17,9 @@ static volatile __bit sent;
 
 /* Invariant: out <= in <= HELD_MAX. */
 static IDATA uint8_t held[HELD_MAX];
-static HOT uint8_t in;
-static HOT uint8_t out;
-static HOT uint8_t err; /* behind the octets; what follows it is not kept */
+static IDATA uint8_t in;
+static IDATA uint8_t out;
+static IDATA uint8_t err; /* behind the octets; what follows it is not kept */
 
 /* A silence that was reported late and cut short by this octet was none. */
 void hold_octet_isr(void) __using(2)
@@ -53,7 +53,7 @@ void hold_sent_isr(void) __using(2)
     sent = 1;
 }
 
-void held_drop(void)
+void held_drop_isr(void) IN_ISR
 {
     held_any = 0;
     silence_first = 0;

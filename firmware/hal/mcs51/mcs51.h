@@ -33,9 +33,10 @@ extern volatile __bit locked; /* main holds upcalls back */
 extern volatile __bit sending;
 extern volatile __bit burst;        /* octets are so short that the interrupt stays for the whole telegram  */
 extern volatile __bit deaf;         /* nobody wants octets: each one only sets back the clock of silence    */
+extern volatile __bit eager;        /* the next octet begins a burst                                         */
 extern HOT uint8_t octet;           /* the octet received last                                              */
 extern HOT uint8_t octet_err;       /* HAL_ERR_* of it                                                      */
-extern HOT uint16_t octet_cycles;   /* duration of one octet                                                */
+extern IDATA uint16_t octet_cycles; /* duration of one octet                                                */
 void serial_work_isr(void) __interrupt __using(2);
 void receive_isr(void) __using(2);    /* SBUF to octet and octet_err, clock of silence set back             */
 void send_next_isr(void) __using(2);  /* TI: the next octet                                                 */
@@ -48,7 +49,8 @@ extern volatile __bit endless; /* silent for longer than Timer 0 counts         
 extern HOT uint8_t reload_low; /* Timer 0 after an octet                               */
 extern HOT uint8_t reload_high;
 void silence_open(void);
-void silence_restart_isr(void) __using(2);
+void silence_restart_isr(void) __using(2) __naked;
+void silence_now_isr(void) __using(2); /* the limit may have passed during an upcall */
 bool silence_cut_isr(void) __using(2); /* the octet being received began before the silence was complete */
 
 /* ---- held.c: what has waited while main held the lock ---- */
@@ -56,12 +58,13 @@ extern volatile __bit held_any;
 void hold_octet_isr(void) __using(2);   /* octet, octet_err             */
 void hold_silence_isr(void) __using(2); /* line_silence_isr() is due    */
 void hold_sent_isr(void) __using(2);    /* line_sent_isr() is due       */
-void held_drop(void);
+void held_drop_isr(void) IN_ISR;
 bool held_octet_isr(void) __using(2);   /* the next one into octet, octet_err; false: no more */
 void held_serve_isr(void) __using(2);
 
 /* ---- chunk.c (phy_uart) or octet.c (any other stack): who takes octets ---- */
-void take_isr(void) __using(2); /* octet, octet_err and, in burst, those that follow: to the stack */
+void take_isr(void) __using(2); /* octet, octet_err: to the stack                         */
+void burst_isr(void) __using(2); /* RI is set: this octet and those that follow, until there is no more to do */
 void look_isr(void) __using(2); /* after any other upcall: does the stack want octets now?          */
 
 #endif

@@ -6,6 +6,10 @@ void take_isr(void) __using(2)
     line_octet_isr(octet, octet_err);
 }
 
+void burst_isr(void) __using(2)
+{
+}
+
 void look_isr(void) __using(2)
 {
 }

@@ -22,16 +22,17 @@
 volatile __bit sending;
 volatile __bit burst;
 volatile __bit deaf;
+volatile __bit eager;
 HOT uint8_t octet;
 HOT uint8_t octet_err;
-HOT uint16_t octet_cycles;
+IDATA uint16_t octet_cycles;
 
 static volatile __bit parity; /* the character has a parity bit       */
 static volatile __bit odd;    /* it is odd                            */
 static volatile __bit seven;  /* seven data bits: the eighth is added */
 static const uint8_t XDATA *HOT tx_at;
 static HOT uint16_t tx_left;
-static HOT uint16_t bit_cycles;
+static IDATA uint16_t bit_cycles;
 static uint16_t baud_n;
 
 /* ---- receive ---------------------------------------------------------------------------------------------------------------- */
@@ -85,7 +86,9 @@ void serial_isr(void) __interrupt(4) __naked
 void serial_work_isr(void) __interrupt __using(2)
 {
     if (RI) {
-        if (sending) {
+        if (eager && !locked && !held_any) {
+            burst_isr();
+        } else if (sending) {
             RI = 0;
         } else {
             receive_isr();
@@ -109,7 +112,7 @@ void serial_work_isr(void) __interrupt __using(2)
 static HOT uint8_t out;
 
 /* `out` to the line, with its parity or second stop bit. Uses no register but A. */
-static void put_isr(void) __naked
+static void put_isr(void) IN_ISR __naked
 {
     __asm
         mov a,_out
@@ -133,16 +136,19 @@ static void put_isr(void) __naked
 
 void hal_send(const uint8_t XDATA *octets, uint16_t n) IN_ISR
 {
+    out = *octets;
+    tx_at = octets + 1;
+    tx_left = n;
+    tx_left--;
     REN = 0;
     TR0 = 0;
     TI = 0;
     deaf = 0;
-    held_drop();
+    eager = 0;
+    if (held_any)
+        held_drop_isr();
     DRIVER_ON();
-    tx_at = octets + 1;
-    tx_left = (uint16_t)(n - 1u);
     sending = 1;
-    out = *octets;
     put_isr();
 }
 
@@ -236,17 +242,20 @@ static void set_format(uint8_t format)
 uint8_t hal_line_open(uint32_t bit_per_s, uint8_t format)
 {
     uint16_t n;
+    uint8_t irq;
 
     if (bit_per_s == 0 || format >= HAL_FORMATS)
         return HAL_LINE_NO; /* no loop in this core */
     n = divisor(bit_per_s);
     if (n == 0)
         return HAL_LINE_NO;
+    irq = hal_irq_save();
     ES = 0;
     DRIVER_OFF();
     sending = 0;
     deaf = 0;
-    held_drop();
+    eager = 0;
+    held_drop_isr();
     baud_n = n;
     bit_cycles = hal_tbit(1);
     octet_cycles = hal_tbit(11);
@@ -262,6 +271,7 @@ uint8_t hal_line_open(uint32_t bit_per_s, uint8_t format)
     silence_open();
     REN = 1;
     ES = 1;
+    hal_irq_restore(irq);
     return HAL_LINE_TIMED;
 }
 

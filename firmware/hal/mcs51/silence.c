@@ -14,8 +14,6 @@ static HOT uint16_t limit;
 HOT uint8_t reload_low;
 HOT uint8_t reload_high;
 
-static HOT uint16_t t0; /* set_timer()'s argument */
-
 void silence_open(void)
 {
     TR0 = 0;
@@ -32,53 +30,76 @@ void silence_open(void)
     ET0 = 1;
 }
 
-void silence_restart_isr(void) __using(2)
+void silence_restart_isr(void) __using(2) __naked
 {
-    TR0 = 0;
-    TL0 = reload_low;
-    TH0 = reload_high;
-    TF0 = 0;
-    TR0 = 1;
-    endless = 0;
-    armed = limit != 0;
+    __asm
+        clr _TR0
+        mov _TL0,_reload_low
+        mov _TH0,_reload_high
+        clr _TF0
+        setb _TR0
+        clr _endless
+        setb _armed
+        ret
+    __endasm;
 }
 
-/* Time since the end of the last octet into t0; Timer 0 is stopped. */
-static void read_elapsed_isr(void) IN_ISR
+/* d comes in dptr. In C this is 150 cycles of every answer. EA is masked for it: the interrupts run on under the lock. */
+void hal_silence(hal_dur_t d) IN_ISR __naked
 {
-    TR0 = 0;
-    t0 = (uint16_t)(((uint16_t)TH0 << 8) | TL0);
-    if (endless) {
-        t0 = 0xFFFFu;
-    } else {
-        t0 = (uint16_t)(t0 + limit);
-        if (t0 < limit && (!armed || TF0))
-            t0 = 0xFFFFu;
-    }
-}
-
-/* The interrupts run on under the lock, so this masks them for its few cycles. */
-void hal_silence(hal_dur_t d) IN_ISR
-{
-    __bit ea = EA;
-
-    EA = 0;
-    if (!sending)
-        read_elapsed_isr();
-    limit = d;
-    d = (hal_dur_t)(0u - d);
-    reload_low = (uint8_t)d;
-    reload_high = (uint8_t)(d >> 8);
-    armed = limit != 0;
-    if (!sending) {
-        TF0 = armed && t0 >= limit;
-        t0 = (uint16_t)(t0 - limit);
-        TL0 = (uint8_t)t0;
-        TH0 = (uint8_t)(t0 >> 8);
-        endless = 0;
-        TR0 = 1;
-    }
-    EA = ea;
+    d;
+    __asm
+        mov c,_EA
+        clr _EA
+        mov _F0,c
+        clr a                   ; reload = - d
+        clr c
+        subb a,dpl
+        mov _reload_low,a
+        clr a
+        subb a,dph
+        mov _reload_high,a
+        jb _sending,00005$
+        clr _TR0
+        jb _endless,00002$
+        mov a,_TL0              ; elapsed = Timer 0 + limit, into dpl and limit + 1
+        add a,_limit
+        mov r6,a
+        mov a,_TH0
+        addc a,(_limit + 1)
+        mov r7,a
+        jnc 00003$
+        jb _TF0,00002$          ; more than 16 bits after the limit: too long to count
+        jb _armed,00003$
+    00002$:
+        mov r6,#0xFF
+        mov r7,#0xFF
+    00003$:
+        clr _endless
+        clr c                   ; Timer 0 = elapsed - d
+        mov a,r6
+        subb a,dpl
+        mov _TL0,a
+        mov a,r7
+        subb a,dph
+        mov _TH0,a
+        cpl c
+        mov _TF0,c              ; silent for d already
+        setb _TR0
+    00005$:
+        mov _limit,dpl
+        mov (_limit + 1),dph
+        setb _armed
+        mov a,dpl
+        orl a,dph
+        jnz 00006$
+        clr _armed              ; no limit
+        clr _TF0
+    00006$:
+        mov c,_F0
+        mov _EA,c
+        ret
+    __endasm;
 }
 
 /* Timer 0 counts on from 0 when the silence is complete. */
@@ -87,11 +108,29 @@ bool silence_cut_isr(void) __using(2)
     return (uint16_t)(((uint16_t)TH0 << 8) | TL0) < octet_cycles;
 }
 
+static void silence_ind_isr(void) __using(2)
+{
+    armed = 0;
+    line_silence_isr();
+    look_isr();
+    if (sending && burst)
+        send_burst_isr();
+}
+
+/* Burst only: a limit that has passed while a telegram was being decided is reported without another interrupt. */
+void silence_now_isr(void) __using(2)
+{
+    if (TF0 && armed && !RI) {
+        TF0 = 0;
+        silence_ind_isr();
+    }
+}
+
 void silence_timer_isr(void) __interrupt(1) __using(2)
 {
     if (sending) {
         send_end_isr();
-    } else if (!armed) {
+    } else if (!armed || limit == 0) {
         endless = 1;
         TR0 = 0;
     } else if (RI && silence_cut_isr()) {
@@ -99,10 +138,6 @@ void silence_timer_isr(void) __interrupt(1) __using(2)
     } else if (locked) {
         hold_silence_isr();
     } else {
-        armed = 0;
-        line_silence_isr();
-        look_isr();
-        if (sending && burst)
-            send_burst_isr();
+        silence_ind_isr();
     }
 }
