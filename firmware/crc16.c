@@ -1,5 +1,5 @@
-/* Tables of crc16.h. The CRC is linear: an entry is the exclusive or of the entries of its single bits, so the
- * compiler works them out from eight (or four) constants. */
+/* Tables of crc16.h. The CRC is linear: an entry is the exclusive or of the entries of its single bits, so
+ * the compiler works them out from eight (or four) constants. */
 #include "crc16.h"
 
 #define BIT(i, b, value) ((((i) >> (b)) & 1) ? (value) : 0)

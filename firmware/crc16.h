@@ -1,8 +1,8 @@
 /* CRC-16 of Modbus: polynomial A001H (reflected 8005H), start FFFFH, low octet sent first. Over a whole good
  * frame, its CRC included, it is 0. Source: Modbus over serial line V1.02, 2.5.1.2 and 6.2.2.
  *
- * One function, two shapes: CRC16_ENTRIES 256 (512 octets of table, for speed; the default) or 16 (32 octets).
- * It is inline because main and interrupts both need it, and on an 8051 no function may serve both.
+ * One function, two shapes: CRC16_ENTRIES 256 (512 octets of table, for speed; the default) or 16 (32
+ * octets). It is inline because main and interrupts both need it, and on an 8051 no function may serve both.
  */
 #ifndef FIELDLING_CRC16_H
 #define FIELDLING_CRC16_H

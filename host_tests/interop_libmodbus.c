@@ -1,5 +1,6 @@
-/* libmodbus, a client nobody here wrote, against fieldling-modbus: all its calls, their limits and errors. Started by
- * interop_libmodbus.py with the station's pty; the station serves host_tests/modbus_image.txt at address 17. */
+/* libmodbus, a client nobody here wrote, against fieldling-modbus: all its calls, their limits and errors.
+ * Started by interop_libmodbus.py with the station's pty; the station serves host_tests/modbus_image.txt at
+ * address 17. */
 #include "unity.h"
 
 #include <errno.h>
@@ -138,7 +139,8 @@ static int raw(const uint8_t *request, int n, uint8_t *answer)
     return modbus_receive_confirmation(ctx, answer);
 }
 
-/* What the library itself would refuse to ask: the answers are 5 octets long, address, function | 80H, 03, CRC. */
+/* What the library itself would refuse to ask: the answers are 5 octets long, address, function | 80H, 03,
+ * CRC. */
 static void test_quantities_outside(void)
 {
     static const uint8_t requests[][13] = {
@@ -151,7 +153,8 @@ static void test_quantities_outside(void)
         TEST_ASSERT_EQUAL_HEX8(requests[i][1] | 0x80, answer[1]);
         TEST_ASSERT_EQUAL(MODBUS_EXCEPTION_ILLEGAL_DATA_VALUE, answer[2]);
     }
-    /* libmodbus' own test: function 16, quantity 0, count 0, but six data octets; framed by silence, not by length */
+    /* libmodbus' own test: function 16, quantity 0, count 0, but six data octets; framed by silence, not by
+     * length */
     static const uint8_t odd[] = {17, 16, 0, 0, 0, 0, 0, 0, 1, 0, 2, 0, 3};
     TEST_ASSERT_EQUAL(5, raw(odd, sizeof odd, answer));
     TEST_ASSERT_EQUAL(MODBUS_EXCEPTION_ILLEGAL_DATA_VALUE, answer[2]);

@@ -37,7 +37,8 @@ extern uint8_t fixture_mode;
 void fixture_both(void (*test)(void), const char *rtu, const char *ascii, int line);
 #define BOTH(test) fixture_both(test, #test "_rtu", #test "_ascii", __LINE__)
 
-/* Send the body (address and PDU, "11 03 00 6B ..."), wait, and compare with the expected body; NULL: silence. */
+/* Send the body (address and PDU, "11 03 00 6B ..."), wait, and compare with the expected body; NULL:
+ * silence. */
 void ask(const char *request, const char *answer);
 
 /* The same, given as whole RTU frames or ASCII text. */

@@ -1,4 +1,5 @@
-/* Prints the tables of firmware/modbus/README.md from what the code is built from: functions, inverter registers. */
+/* Prints the tables of firmware/modbus/README.md from what the code is built from: functions, inverter
+ * registers. */
 #include "boards/common/inverter_map.h"
 #include "modbus/mb.h"
 

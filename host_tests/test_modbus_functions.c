@@ -1,6 +1,7 @@
-/* Every function of the server, octet by octet, in RTU and in ASCII. Where a clause is named, the octets are its
- * example or follow from it; [A] is the application protocol V1.1b3, [S] serial line V1.02. Bodies are address and
- * PDU; the client adds CRC or LRC by its own encoder, and the examples of the source document stand here in full. */
+/* Every function of the server, octet by octet, in RTU and in ASCII. Where a clause is named, the octets are
+ * its example or follow from it; [A] is the application protocol V1.1b3, [S] serial line V1.02. Bodies are
+ * address and PDU; the client adds CRC or LRC by its own encoder, and the examples of the source document
+ * stand here in full. */
 #include "modbus_fixture.h"
 #include "unity.h"
 
@@ -16,7 +17,7 @@ void tearDown(void)
     TEST_ASSERT_EQUAL_MESSAGE(fx.locks, fx.unlocks, "lock and unlock in pairs");
 }
 
-/* ---- the source document's examples, spec B6, as whole frames -------------------------------------------- */
+/* ---- the source document's examples, spec B6, as whole frames ------------------------------------------ */
 
 static void test_examples_of_the_document_in_rtu(void)
 {
@@ -45,7 +46,7 @@ static void test_examples_of_the_document_in_ascii(void)
     ask_text(":0A0104A100014F\r\n", ":0A810273\r\n"); /* LRCs 4F and 73 are the document's */
 }
 
-/* ---- 01, 02: [A] 6.1, 6.2 -------------------------------------------------------------------------------- */
+/* ---- 01, 02: [A] 6.1, 6.2 ------------------------------------------------------------------------------ */
 
 static void test_reading_bits(void)
 {
@@ -81,7 +82,7 @@ static void test_reading_2000_bits_is_allowed_2001_is_not(void)
     ask("11 02 00 00 00 00", "11 82 03"); /* quantity is looked at before the address: figures 11, 12 */
 }
 
-/* ---- 03, 04: [A] 6.3, 6.4 -------------------------------------------------------------------------------- */
+/* ---- 03, 04: [A] 6.3, 6.4 ------------------------------------------------------------------------------ */
 
 static void test_reading_registers(void)
 {
@@ -118,7 +119,7 @@ static void test_the_last_address_is_65535_and_nothing_wraps(void)
     TEST_ASSERT_EQUAL_HEX16(0, holding_0[0]);
 }
 
-/* ---- 05, 06: [A] 6.5, 6.6 -------------------------------------------------------------------------------- */
+/* ---- 05, 06: [A] 6.5, 6.6 ------------------------------------------------------------------------------ */
 
 static void test_writing_a_coil(void)
 {
@@ -148,7 +149,7 @@ static void test_writing_a_register(void)
     TEST_ASSERT_EQUAL_HEX16(3, holding_0[1]);
 }
 
-/* ---- 07: [A] 6.7 ----------------------------------------------------------------------------------------- */
+/* ---- 07: [A] 6.7 --------------------------------------------------------------------------------------- */
 
 static void test_exception_status(void)
 {
@@ -157,7 +158,7 @@ static void test_exception_status(void)
     ask("11 07 00", "11 87 03"); /* wrong length: 03, [S] appendix A */
 }
 
-/* ---- 15, 16: [A] 6.11, 6.12 ------------------------------------------------------------------------------ */
+/* ---- 15, 16: [A] 6.11, 6.12 ---------------------------------------------------------------------------- */
 
 static void test_writing_coils(void)
 {
@@ -249,7 +250,7 @@ static void test_writing_123_registers(void)
     TEST_ASSERT_EQUAL_HEX16(0x107B, holding_big[123]);
 }
 
-/* ---- all or nothing -------------------------------------------------------------------------------------- */
+/* ---- all or nothing ------------------------------------------------------------------------------------ */
 
 static void test_a_write_changes_all_or_nothing(void)
 {
@@ -299,14 +300,14 @@ static void test_files_and_queues_without_memory_go_to_the_application(void)
     ask("11 18 07 00", "11 18 00 06 00 02 11 11 11 12");
 }
 
-/* ---- 17: [A] 6.13 ---------------------------------------------------------------------------------------- */
+/* ---- 17: [A] 6.13 -------------------------------------------------------------------------------------- */
 
 static void test_server_id(void)
 {
     ask("11 11", "11 11 02 00 FF"); /* the default: id 0, running */
 }
 
-/* ---- 20, 21: [A] 6.14, 6.15 ------------------------------------------------------------------------------ */
+/* ---- 20, 21: [A] 6.14, 6.15 ---------------------------------------------------------------------------- */
 
 static void test_reading_files(void)
 {
@@ -399,7 +400,7 @@ static void test_writing_a_file_with_the_longest_request(void)
     TEST_ASSERT_EQUAL_HEX16(0x0D0C, file_9[125]);
 }
 
-/* ---- 22, 23, 24: [A] 6.16, 6.17, 6.18 -------------------------------------------------------------------- */
+/* ---- 22, 23, 24: [A] 6.16, 6.17, 6.18 ------------------------------------------------------------------ */
 
 static void test_mask_write(void)
 {
@@ -466,7 +467,7 @@ static void test_fifo_of_31(void)
     TEST_ASSERT_EQUAL_HEX8(31, got[67]);
 }
 
-/* ---- 43: [A] 6.19 to 6.21; more of it in test_modbus_identification.c ------------------------------------- */
+/* ---- 43: [A] 6.19 to 6.21; more of it in test_modbus_identification.c ---------------------------------- */
 
 static void test_encapsulated_interface(void)
 {
@@ -485,7 +486,7 @@ static void test_encapsulated_interface(void)
     ask("11 2B", "11 AB 03");
 }
 
-/* ---- what is no function ---------------------------------------------------------------------------------- */
+/* ---- what is no function ------------------------------------------------------------------------------- */
 
 static void test_unknown_functions(void)
 {
@@ -522,7 +523,7 @@ static void test_user_functions_are_rows(void)
     ask("11 6E 55", "11 EE 06");
 }
 
-/* ---- broadcast: [S] 2.1 ----------------------------------------------------------------------------------- */
+/* ---- broadcast: [S] 2.1 -------------------------------------------------------------------------------- */
 
 static void test_broadcast_writes_are_executed_and_never_answered(void)
 {
@@ -586,7 +587,7 @@ static void test_a_refused_broadcast_is_counted_and_silent(void)
     TEST_ASSERT_EQUAL(0, fx.writes);
 }
 
-/* ---- 32-bit values ---------------------------------------------------------------------------------------- */
+/* ---- 32-bit values ------------------------------------------------------------------------------------- */
 
 static void count_up(void *arg, uint32_t value)
 {

@@ -1,4 +1,5 @@
-/* The inverter of spec B7 behind its Modbus server, in virtual time: ramps to the step, trips, refusals, storing. */
+/* The inverter of spec B7 behind its Modbus server, in virtual time: ramps to the step, trips, refusals,
+ * storing. */
 #include "inverter.h"
 #include "modbus/mb.h"
 #include "sim/modbus_client.h"

@@ -1,5 +1,5 @@
-/* The two lines, RTU and ASCII: frames and silences, bad frames, other stations' traffic, counters, event log,
- * listen-only mode. [A] application protocol V1.1b3, [S] serial line V1.02. */
+/* The two lines, RTU and ASCII: frames and silences, bad frames, other stations' traffic, counters, event
+ * log, listen-only mode. [A] application protocol V1.1b3, [S] serial line V1.02. */
 #include "modbus_fixture.h"
 #include "unity.h"
 
@@ -31,7 +31,7 @@ static void silence_then_good(void)
     ask(GOOD, ANSWER);
 }
 
-/* ---- RTU: silences --------------------------------------------------------------------------------------- */
+/* ---- RTU: silences ------------------------------------------------------------------------------------- */
 
 static hv_time answer_delay(void)
 {
@@ -142,7 +142,7 @@ static void test_rtu_a_client_may_ask_again_at_once(void)
     TEST_ASSERT_EQUAL(6, mb_diag.counter[MB_BUS_MESSAGE]);
 }
 
-/* ---- bad frames ------------------------------------------------------------------------------------------- */
+/* ---- bad frames ---------------------------------------------------------------------------------------- */
 
 static void test_bad_frames_are_dropped_and_counted(void)
 {
@@ -214,7 +214,7 @@ static void test_rtu_256_octets_are_a_frame_257_are_not(void)
     }
 }
 
-/* ---- several stations on one line -------------------------------------------------------------------------- */
+/* ---- several stations on one line ---------------------------------------------------------------------- */
 
 static void test_nothing_of_ours_is_lost_among_others(void)
 {
@@ -322,7 +322,7 @@ static void test_the_answer_is_sent_as_one_run_and_the_driver_drops_behind_it(vo
     TEST_ASSERT_FALSE(hv_driver());
 }
 
-/* ---- ASCII --------------------------------------------------------------------------------------------------- */
+/* ---- ASCII --------------------------------------------------------------------------------------------- */
 
 static void test_ascii_a_colon_starts_anew_at_any_time(void)
 {
@@ -423,7 +423,7 @@ static void test_ascii_the_delimiter_can_be_changed(void)
     ask(GOOD, ANSWER); /* a restart brings LF back */
 }
 
-/* ---- opening --------------------------------------------------------------------------------------------------- */
+/* ---- opening ------------------------------------------------------------------------------------------- */
 
 static void test_what_cannot_be_opened_changes_nothing(void)
 {
@@ -460,7 +460,7 @@ static void test_mode_rate_and_parity_are_chosen_at_run_time(void)
             }
 }
 
-/* ---- function 08, counters: [A] 6.8, [S] appendix A ------------------------------------------------------------ */
+/* ---- function 08, counters: [A] 6.8, [S] appendix A ---------------------------------------------------- */
 
 static void test_return_query_data(void)
 {
@@ -527,7 +527,7 @@ static void test_counters(void)
     ask("11 08 00 0D 00 00", "11 08 00 0D 00 00");
 }
 
-/* ---- functions 11 and 12: [A] 6.9, 6.10 ------------------------------------------------------------------------- */
+/* ---- functions 11 and 12: [A] 6.9, 6.10 ---------------------------------------------------------------- */
 
 static void test_event_counter(void)
 {
@@ -597,7 +597,7 @@ static void test_the_log_holds_the_newest_64(void)
     TEST_ASSERT_EQUAL_HEX8(0x40, got[72]);
 }
 
-/* ---- restart and listen-only: [A] 6.8.1 --------------------------------------------------------------------------- */
+/* ---- restart and listen-only: [A] 6.8.1 ---------------------------------------------------------------- */
 
 static void test_restart_answers_first_then_clears_the_counters(void)
 {

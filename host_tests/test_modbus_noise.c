@@ -1,5 +1,6 @@
-/* What can come over a wire that nobody meant: random frames and noise. Promises, for any input: no write without a
- * whole, valid request to us; no answer but to one; never more than one answer; the next good request is served. */
+/* What can come over a wire that nobody meant: random frames and noise. Promises, for any input: no write
+ * without a whole, valid request to us; no answer but to one; never more than one answer; the next good
+ * request is served. */
 #include "modbus_fixture.h"
 #include "sim/random.h"
 #include "unity.h"
@@ -142,7 +143,8 @@ static void test_random_frames_ascii(void)
     random_frames(MB_ASCII, times(400000));
 }
 
-/* Noise in chunks with silences of any length between them; in ASCII mostly of the characters frames are made of. */
+/* Noise in chunks with silences of any length between them; in ASCII mostly of the characters frames are made
+ * of. */
 static void noise(uint8_t mode, unsigned n)
 {
     static const char letters[] = ":0123456789ABCDEF\r\n1103::";

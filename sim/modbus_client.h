@@ -1,4 +1,5 @@
-/* A Modbus serial client ("master") on the virtual port's line, RTU and ASCII, that can also be wrong on purpose. */
+/* A Modbus serial client ("master") on the virtual port's line, RTU and ASCII, that can also be wrong on
+ * purpose. */
 #ifndef SIM_MODBUS_CLIENT_H
 #define SIM_MODBUS_CLIENT_H
 
@@ -30,16 +31,19 @@ struct mbc {
     hv_time request_end, answer_start, answer_end;
 };
 
-/* The client takes the line of the virtual port; mode RTU, nothing wrong, time-out 1 s. Once, after hv_begin(). */
+/* The client takes the line of the virtual port; mode RTU, nothing wrong, time-out 1 s. Once, after
+ * hv_begin(). */
 void mbc_begin(struct mbc *c);
 
-/* Put octets on the line from now on, back to back, with what is wrong. Time goes on to the end of the last one. */
+/* Put octets on the line from now on, back to back, with what is wrong. Time goes on to the end of the last
+ * one. */
 void mbc_put(struct mbc *c, const uint8_t *octets, unsigned n);
 
 /* Send body as a frame after t_before of silence. */
 void mbc_send(struct mbc *c, const uint8_t *body, unsigned n);
 
-/* Wait up to time_out for an answer to start, and for its end. -> octets of its body, 0: none, or not a good frame (then heard_n is not 0). */
+/* Wait up to time_out for an answer to start, and for its end. -> octets of its body, 0: none, or not a good
+ * frame (then heard_n is not 0). */
 unsigned mbc_wait(struct mbc *c, uint8_t *body);
 
 /* Silence for so many bit times. */

@@ -1,5 +1,5 @@
-/* Modbus serial frames by an encoder of its own, CRC and LRC worked out bit by bit and by the book. Knows no time.
- * Source: Modbus over serial line V1.02, 2.5. */
+/* Modbus serial frames by an encoder of its own, CRC and LRC worked out bit by bit and by the book. Knows no
+ * time. Source: Modbus over serial line V1.02, 2.5. */
 #ifndef SIM_MODBUS_FRAME_H
 #define SIM_MODBUS_FRAME_H
 
@@ -18,8 +18,8 @@ struct mbc_coding {
 uint16_t mbc_crc(const uint8_t *octets, unsigned n);
 uint8_t mbc_lrc(const uint8_t *octets, unsigned n);
 
-/* body = address and PDU, n octets, to a whole frame whose check field is wrong by check_xor. -> octets or characters
- * of the frame */
+/* body = address and PDU, n octets, to a whole frame whose check field is wrong by check_xor. -> octets or
+ * characters of the frame */
 unsigned mbc_frame(const struct mbc_coding *c, const uint8_t *body, unsigned n, uint16_t check_xor,
                    uint8_t *frame);
 

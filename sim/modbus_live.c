@@ -1,6 +1,6 @@
-/* The inverter live, `make run PROTOCOL=modbus`: starts a station on a pseudo terminal and polls it with libmodbus, a
- * client nobody here wrote. On a terminal until Ctrl-C; else about ten seconds, then one summary line and status 0,
- * or 1 if requests failed.
+/* The inverter live, `make run PROTOCOL=modbus`: starts a station on a pseudo terminal and polls it with
+ * libmodbus, a client nobody here wrote. On a terminal until Ctrl-C; else about ten seconds, then one summary
+ * line and status 0, or 1 if requests failed.
  *
  *   modbus-live STATION   the program to start; it is given --line pty:... */
 #include "boards/common/inverter_map.h"

@@ -1,5 +1,5 @@
-/* The drive model: ramps, V/f characteristic, current, DC bus, heat; trips; storing of parameters. Whole numbers
- * only. None of it is a motor's data sheet: our choice, simple and plausible. */
+/* The drive model: ramps, V/f characteristic, current, DC bus, heat; trips; storing of parameters. Whole
+ * numbers only. None of it is a motor's data sheet: our choice, simple and plausible. */
 #include "inverter_model.h"
 
 #include "hal/hal.h"
@@ -102,8 +102,8 @@ static uint32_t max_u32(uint32_t a, uint32_t b)
     return a > b ? a : b;
 }
 
-/* Voltage follows frequency up to BASE_FREQ; the current is magnetising 30 % or load, and half as much again while
- * accelerating; a fast ramp down feeds the DC bus, which trips at twice RATED_VOLTAGE. */
+/* Voltage follows frequency up to BASE_FREQ; the current is magnetising 30 % or load, and half as much again
+ * while accelerating; a fast ramp down feeds the DC bus, which trips at twice RATED_VOLTAGE. */
 static void electrics(int8_t moving)
 {
     const uint32_t f = inv_values[INV_V_OUTPUT_FREQ];

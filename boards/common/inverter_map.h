@@ -1,8 +1,9 @@
-/* The inverter's registers, described once: the code, the table in firmware/modbus/README.md (make modbus-map) and
- * the host station's display are made from these rows. Addresses count from 0 in the order of the rows.
+/* The inverter's registers, described once: the code, the table in firmware/modbus/README.md (make
+ * modbus-map) and the host station's display are made from these rows. Addresses count from 0 in the order of
+ * the rows.
  *
  *   COIL(name, text)                                     bits, read and write
- *   INPUT(name, text)                                    bits, read only; the first eight are the exception status
+ *   INPUT(name, text)                                    bits, read only; the first 8: exception status
  *   PARAM(name, unit, min, max, default, saved, text)    holding registers; saved: kept by STORE
  *   VALUE(name, unit, text)                              input registers
  *
@@ -66,8 +67,8 @@ enum { INV_INPUTS(INV_NAME_INPUT) INV_IN_COUNT };
 enum { INV_PARAMS(INV_NAME_PARAM) INV_P_COUNT };
 enum { INV_VALUES(INV_NAME_VALUE) INV_V_COUNT };
 
-/* Function 24: the last trips, newest first. Function 20: output frequency every 100 ms, newest first (file 1);
- * a note of the owner's, read and write (file 2). */
+/* Function 24: the last trips, newest first. Function 20: output frequency every 100 ms, newest first (file
+ * 1); a note of the owner's, read and write (file 2). */
 #define INV_TRIP_FIFO    0x0100u
 #define INV_TRIPS_KEPT   8u
 #define INV_FILE_TREND   1u

@@ -1,4 +1,5 @@
-/* The inverter's Modbus server: everything there is. All of the inverter lives in main: there is nothing to lock. */
+/* The inverter's Modbus server: everything there is. All of the inverter lives in main: there is nothing to
+ * lock. */
 #ifndef INVERTER_MB_H
 #define INVERTER_MB_H
 

@@ -31,8 +31,9 @@ static bool changes(uint8_t i)
     return after(i) != inv_params[i];
 }
 
-/* Our choice: 04 for RUN while tripped (the device cannot), 03 for values out of range or against each other, 06 for
- * what must not change while the motor turns and while parameters are being stored, 05 for the store itself. */
+/* Our choice: 04 for RUN while tripped (the device cannot), 03 for values out of range or against each other,
+ * 06 for what must not change while the motor turns and while parameters are being stored, 05 for the store
+ * itself. */
 static uint8_t check_params(void)
 {
     uint8_t i;

@@ -1,5 +1,5 @@
-/* The inverter for a Modbus server. inverter_bind.c gives these to the server by name; a board with more than one
- * device (the host station) binds them itself. All of it is main. */
+/* The inverter for a Modbus server. inverter_bind.c gives these to the server by name; a board with more than
+ * one device (the host station) binds them itself. All of it is main. */
 #ifndef INVERTER_MODBUS_H
 #define INVERTER_MODBUS_H
 

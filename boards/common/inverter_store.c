@@ -1,5 +1,5 @@
-/* Parameters in non-volatile memory: mark, the saved ones high octet first, sum. Written one octet a pass, because
- * an octet of EEPROM takes milliseconds and the server must go on; the mark is written last. */
+/* Parameters in non-volatile memory: mark, the saved ones high octet first, sum. Written one octet a pass,
+ * because an octet of EEPROM takes milliseconds and the server must go on; the mark is written last. */
 #include "bytes.h"
 #include "hal/hal.h"
 #include "inverter_model.h"

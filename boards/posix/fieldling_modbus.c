@@ -1,5 +1,5 @@
-/* fieldling-modbus: a Modbus server as a program, on a pseudo terminal or a serial port: the inverter, or the data of
- * a text file. Console on standard input and output; `fieldling-modbus --help` says the rest. */
+/* fieldling-modbus: a Modbus server as a program, on a pseudo terminal or a serial port: the inverter, or the
+ * data of a text file. Console on standard input and output; `fieldling-modbus --help` says the rest. */
 #include "console.h"
 #include "hal/hal.h"
 #include "hal_host.h"
@@ -13,11 +13,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Our choice: on a line that cannot show silence to the bit a frame has ended when nothing came for 5 ms: a pty
- * gives what was written at once, and a busy host is late by less. A USB adapter may want 20. */
+/* Our choice: on a line that cannot show silence to the bit a frame has ended when nothing came for 5 ms: a
+ * pty gives what was written at once, and a busy host is late by less. A USB adapter may want 20. */
 #define GAP_MS 5u
 
-/* ---- the device: inverter or image ------------------------------------------------------------------------ */
+/* ---- the device: inverter or image --------------------------------------------------------------------- */
 
 static bool is_image;
 const struct mb_block CODE *mb_map = inv_blocks;
@@ -42,7 +42,7 @@ uint8_t mb_server_id_ind(uint8_t XDATA *octets)
     return is_image ? mb_image_server_id(octets) : inv_server_id(octets);
 }
 
-/* ---- command line ------------------------------------------------------------------------------------------- */
+/* ---- command line -------------------------------------------------------------------------------------- */
 
 static struct hal_host host = {.switches = 1};
 static char parity = 'E';
@@ -126,7 +126,7 @@ static const char more[] =
     "  quit                   end\n"
     "The end of the input does not end the station. SIGTERM and SIGINT do, with status 0.\n";
 
-/* ---- console ------------------------------------------------------------------------------------------------- */
+/* ---- console ------------------------------------------------------------------------------------------- */
 
 static bool quit;
 
@@ -233,7 +233,7 @@ static const struct console_command commands[] = {
     {"status", cmd_status}, {"get", cmd_get}, {"set", cmd_set}, {"trace", cmd_trace}, {"quit", cmd_quit}, {0},
 };
 
-/* ---- the program ----------------------------------------------------------------------------------------------- */
+/* ---- the program --------------------------------------------------------------------------------------- */
 
 static uint8_t format(void)
 {
@@ -245,7 +245,8 @@ static uint8_t format(void)
     return ascii ? HAL_7E1 : HAL_8E1;
 }
 
-/* Every line of a host is one that cannot show silence to the bit (hal_realtime.c): there the gap counts in ms. */
+/* Every line of a host is one that cannot show silence to the bit (hal_realtime.c): there the gap counts in
+ * ms. */
 static void set_gap(void)
 {
     uint32_t tbit;

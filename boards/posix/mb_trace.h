@@ -11,8 +11,8 @@
 
 void mb_trace_set(bool on);
 
-/* Say the frames noted since the last call. ascii: how to read them; gap_ms: a frame received has ended when nothing
- * came for so long. */
+/* Say the frames noted since the last call. ascii: how to read them; gap_ms: a frame received has ended when
+ * nothing came for so long. */
 void mb_trace_poll(bool ascii, uint16_t gap_ms);
 
 #endif

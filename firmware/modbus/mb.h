@@ -54,16 +54,16 @@ enum mb_table {
 };
 
 /* Items first..first+count-1 of a table. Registers are uint16_t[count]; bit i is bit i%8 of octet i/8 of
- * uint8_t[(count+7)/8]. data = NULL: the values are where mb_block_ind() says. A request must lie in one block:
- * what is to be read together stands together, and is read in one piece. Blocks must not overlap. */
+ * uint8_t[(count+7)/8]. data = NULL: the values are where mb_block_ind() says. A request must lie in one
+ * block: what is to be read together stands together, and is read in one piece. Blocks must not overlap. */
 struct mb_block {
     uint8_t table; /* enum mb_table */
     uint16_t first, count;
     void XDATA *data;
 };
 
-/* All blocks of the station, ended by MB_MAP_END. From the application, which may change it between two calls of
- * mb_poll(). */
+/* All blocks of the station, ended by MB_MAP_END. From the application, which may change it between two calls
+ * of mb_poll(). */
 extern const struct mb_block CODE *mb_map;
 #define MB_MAP_END                                                                                           \
     {                                                                                                        \
@@ -98,14 +98,14 @@ enum mb_exception {
     MB_MEMORY_PARITY,
 };
 
-/* Asked for each range, with functions 20 and 21 twice, after it was found in mb_map and before any item is read or changed. Of a write, mb_span_get()
- * gives the new values. -> MB_OK, or the exception that refuses the whole request. May update
- * what is about to be read. Default: MB_OK. */
+/* Asked for each range, with functions 20 and 21 twice, after it was found in mb_map and before any item is
+ * read or changed. Of a write, mb_span_get() gives the new values. -> MB_OK, or the exception that refuses
+ * the whole request. May update what is about to be read. Default: MB_OK. */
 uint8_t mb_check_ind(void);
 
-/* The values of mb_span, which lies in a block without data. Read: put them all (the octets hold something else
- * before). Write: take them; it must succeed, mb_check_ind() is where to refuse. -> MB_OK, or the exception of a
- * read. Default: MB_DEVICE_FAILURE. */
+/* The values of mb_span, which lies in a block without data. Read: put them all (the octets hold something
+ * else before). Write: take them; it must succeed, mb_check_ind() is where to refuse. -> MB_OK, or the
+ * exception of a read. Default: MB_DEVICE_FAILURE. */
 uint8_t mb_block_ind(void);
 
 /* A write is done. Default: nothing. */
@@ -123,9 +123,9 @@ bool mb_busy_ind(void);
  * octets, 2..251. Default: 00H FFH. */
 uint8_t mb_server_id_ind(uint8_t XDATA *octets);
 
-/* Function 43/14: the objects of the device, by rising id, ended by a row without text. 0 vendor name, 1 product
- * code, 2 revision must be there; 3..6 are the regular ones, 128..255 the extended. Text: 0..244 characters.
- * Default: vendor "Fieldling", product code and revision "0". */
+/* Function 43/14: the objects of the device, by rising id, ended by a row without text. 0 vendor name, 1
+ * product code, 2 revision must be there; 3..6 are the regular ones, 128..255 the extended. Text: 0..244
+ * characters. Default: vendor "Fieldling", product code and revision "0". */
 struct mb_object {
     uint8_t id;
     const char CODE *text;
@@ -139,10 +139,10 @@ uint8_t mb_canopen_ind(void);
 /* Function 8/1 has restarted communication; the answer has left. Default: nothing. */
 void mb_restart_ind(void);
 
-/* ---- for handlers of user functions (a row in MB_FUNCTIONS) --------------------------------------------- */
+/* ---- for handlers of user functions (a row in MB_FUNCTIONS) -------------------------------------------- */
 
-/* A handler is uint8_t handler(void): it finds the request in mb_pdu[0..mb_pdu_len-1] (mb_pdu[0] is the function
- * code), puts the answer there, sets mb_pdu_len (1..253), and returns MB_OK or an exception. */
+/* A handler is uint8_t handler(void): it finds the request in mb_pdu[0..mb_pdu_len-1] (mb_pdu[0] is the
+ * function code), puts the answer there, sets mb_pdu_len (1..253), and returns MB_OK or an exception. */
 struct mb_frame {
     uint8_t pdu_len;
     uint8_t adu[MB_ADU_OCTETS]; /* address, PDU, room for CRC or LRC */
@@ -152,19 +152,21 @@ extern struct mb_frame XDATA mb_frame;
 #define mb_pdu     (mb_frame.adu + 1)
 #define mb_pdu_len (mb_frame.pdu_len)
 
-/* Address and quantity of mb_pdu[1..4] to mb_span. -> octets that so many items of table take; 0: the quantity is
- * not 1..qty_max (exception 3, which comes before the address is looked at, [A] 6). */
+/* Address and quantity of mb_pdu[1..4] to mb_span. -> octets that so many items of table take; 0: the
+ * quantity is not 1..qty_max (exception 3, which comes before the address is looked at, [A] 6). */
 uint8_t mb_range(uint8_t table, uint16_t qty_max);
 
-/* The range in mb_span: check() finds its block and asks mb_check_ind(), changing nothing; move() copies the values
- * between mb_span.octets and the block that check() found last; access() does both. -> MB_OK or an exception. */
+/* The range in mb_span: check() finds its block and asks mb_check_ind(), changing nothing; move() copies the
+ * values between mb_span.octets and the block that check() found last; access() does both. -> MB_OK or an
+ * exception. */
 uint8_t mb_check(void);
 uint8_t mb_move(void);
 uint8_t mb_access(void);
 
-/* ---- diagnostics, for the application's own display ------------------------------------------------------ */
+/* ---- diagnostics, for the application's own display ---------------------------------------------------- */
 
-/* Counters CPT1..CPT8 of [S] appendix A, in the order of function 8's sub-functions 0BH..12H. Wrap at 65536. */
+/* Counters CPT1..CPT8 of [S] appendix A, in the order of function 8's sub-functions 0BH..12H. Wrap at 65536.
+ */
 enum mb_counter {
     MB_BUS_MESSAGE,
     MB_BUS_ERROR,

@@ -1,6 +1,6 @@
-/* Every function of the server, for a configuration header: #define MB_FUNCTIONS(ROW) MB_ALL_FUNCTIONS(ROW), or
- * copy the rows you want. Broadcast: writing functions only ([S] 2.1); our choice: 22 is one, 23 is not, because
- * its answer is what it is for. */
+/* Every function of the server, for a configuration header: #define MB_FUNCTIONS(ROW) MB_ALL_FUNCTIONS(ROW),
+ * or copy the rows you want. Broadcast: writing functions only ([S] 2.1); our choice: 22 is one, 23 is not,
+ * because its answer is what it is for. */
 #ifndef FIELDLING_MB_ALL_FUNCTIONS_H
 #define FIELDLING_MB_ALL_FUNCTIONS_H
 

@@ -1,8 +1,8 @@
 /* The tables: from a range of items to the blocks of mb_map that hold them.
  *
  * Context  main
- * Nothing is moved before the range has been found and mb_check_ind() has agreed: a write changes all of its items
- * or none.
+ * Nothing is moved before the range has been found and mb_check_ind() has agreed: a write changes all of its
+ * items or none.
  */
 #include "modbus/mb.h"
 #include "hal/hal.h"

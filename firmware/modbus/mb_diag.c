@@ -1,7 +1,7 @@
 /* What is counted and logged of each message. [S] appendix A, [A] 6.10.
  *
- * Counters of the line (bus message, bus error, overrun) are written by the interrupts, the others by main while
- * it holds the frame; the event log by both, in the interrupt or with interrupts masked.
+ * Counters of the line (bus message, bus error, overrun) are written by the interrupts, the others by main
+ * while it holds the frame; the event log by both, in the interrupt or with interrupts masked.
  */
 #include "modbus/mb_diag.h"
 #include "modbus/mb_line.h"
@@ -47,7 +47,8 @@ void mb_diag_restart(bool clear_log)
     restart = clear_log ? RESTART_CLEAR_LOG : RESTART_KEEP_LOG;
 }
 
-/* Our choice: everything is cleared when the answer has left, so the request that asked for it is in no counter. */
+/* Our choice: everything is cleared when the answer has left, so the request that asked for it is in no
+ * counter. */
 void mb_diag_poll(void)
 {
     if (restart == NO_RESTART || mb_rx.state == MB_SENDING)
@@ -88,8 +89,9 @@ static uint8_t exception_event(uint8_t exception)
     return exception == MB_NEGATIVE_ACKNOWLEDGE ? MB_EVENT_EXCEPTION_7 : MB_EVENT_EXCEPTION_5_6;
 }
 
-/* [A] 6.9: the event counter counts successful messages, but not function 11. [S] appendix A: a refused broadcast
- * counts as an exception, too; counter 5 has broadcasts, and our choice: what listen-only mode keeps silent. */
+/* [A] 6.9: the event counter counts successful messages, but not function 11. [S] appendix A: a refused
+ * broadcast counts as an exception, too; counter 5 has broadcasts, and our choice: what listen-only mode
+ * keeps silent. */
 void mb_diag_end(uint8_t exception, bool answered)
 {
     if (exception)

@@ -1,5 +1,5 @@
-/* Between mb_server, the line, and the diagnostics of [A] 6.8 to 6.10 and [S] appendix A. Only called where a row
- * needs it (MB_HAS_DIAGNOSTICS). */
+/* Between mb_server, the line, and the diagnostics of [A] 6.8 to 6.10 and [S] appendix A. Only called where a
+ * row needs it (MB_HAS_DIAGNOSTICS). */
 #ifndef FIELDLING_MB_DIAG_H
 #define FIELDLING_MB_DIAG_H
 

@@ -34,8 +34,8 @@ static uint8_t restart(void)
     return MB_OK;
 }
 
-/* Data: the character, 00H. Our choice: a character that frames are made of is refused; in RTU the character is
- * taken and has no effect. */
+/* Data: the character, 00H. Our choice: a character that frames are made of is refused; in RTU the character
+ * is taken and has no effect. */
 static uint8_t change_delimiter(void)
 {
     const uint8_t c = mb_pdu[3];

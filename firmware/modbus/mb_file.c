@@ -1,4 +1,5 @@
-/* Functions 20, 21: read and write file records. [A] 6.14, 6.15. A record is a register of a block of table MB_FILE.
+/* Functions 20, 21: read and write file records. [A] 6.14, 6.15. A record is a register of a block of table
+ * MB_FILE.
  *
  *     20  request  14H  octets:1  groups of  06  file:2  record:2  length:2            octets 07H..F5H
  *         answer   14H  octets:1  groups of  1 + 2 length  06  registers
@@ -6,9 +7,9 @@
  *         answer: the request
  *
  * All groups are checked before anything is read or written. Order of exceptions: octets 3; then per group
- * reference type, file, record, end of the file: 2.
- * our choice: a group that is not complete, a length of 0 and an answer longer than a PDU are exception 3; the
- * upper limit of function 21 is FBH (text and table; the state diagram still has F5H of an older edition).
+ * reference type, file, record, end of the file: 2. our choice: a group that is not complete, a length of 0
+ * and an answer longer than a PDU are exception 3; the upper limit of function 21 is FBH (text and table; the
+ * state diagram still has F5H of an older edition).
  */
 #include "modbus/mb_line.h"
 

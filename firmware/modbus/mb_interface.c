@@ -5,8 +5,9 @@
  *     request  2BH  0EH  code  object id                 code 1 basic, 2 regular, 3 extended, 4 one object
  *     answer   2BH  0EH  code  conformity  more  next id  objects:1  (id  length  text) each
  *
- * Order of exceptions ([A] figure 29 and text): MEI type 1, code 3, object id of code 4: 2. In a stream an unknown
- * object id means 0 (the text of [A] 6.21; its figure says otherwise). A level above ours is answered at ours.
+ * Order of exceptions ([A] figure 29 and text): MEI type 1, code 3, object id of code 4: 2. In a stream an
+ * unknown object id means 0 (the text of [A] 6.21; its figure says otherwise). A level above ours is answered
+ * at ours.
  */
 #include "modbus/mb_line.h"
 

@@ -1,11 +1,12 @@
 /* Modbus serial line, what both modes share, and RTU.
  *
- * Layer    hal -> [mb_line, mb_ascii] -> mb_server; implements line_octet_isr, line_silence_isr, line_sent_isr
+ * Layer    hal -> [mb_line, mb_ascii] -> mb_server; implements line_octet_isr, line_silence_isr,
+ *          line_sent_isr
  * Source   [S] 2.5.1 RTU framing, figure 14 its states, 2.5.1.2 CRC, appendix A the counters
  *
- * A frame is what stands between two silences, whatever its contents: only that keeps a server in step on a line
- * with other servers, absent ones and noise. The CRC is worked out as the octets come, so that nothing is left
- * to do for it when the frame has ended.
+ * A frame is what stands between two silences, whatever its contents: only that keeps a server in step on a
+ * line with other servers, absent ones and noise. The CRC is worked out as the octets come, so that nothing
+ * is left to do for it when the frame has ended.
  */
 #include "modbus/mb_line.h"
 #include "crc16.h"
@@ -21,8 +22,8 @@ HOT struct mb_rx mb_rx;
 /* ---- main ---------------------------------------------------------------------------------------------- */
 
 /* [S] 2.5.1.1: 1.5 and 3.5 characters up to 19200 bit/s, above it 750 us and 1.75 ms (worked out without a
- * division: 49/256 and 29/64 of the bits in 1/256 s). A port reports an octet when it is complete, so a gap of 1.5
- * characters shows as 1.5 + 1 characters between two reports. */
+ * division: 49/256 and 29/64 of the bits in 1/256 s). A port reports an octet when it is complete, so a gap
+ * of 1.5 characters shows as 1.5 + 1 characters between two reports. */
 static void set_gaps(void)
 {
     const uint16_t k = (uint16_t)(mb_port.bit_per_s >> 8);
@@ -83,8 +84,8 @@ static bool is_ascii(void)
     return MB_WITH_ASCII && mb_rx.idle == MB_COLON;
 }
 
-/* Our choice: when something is heard after the request, its client has given up and is talking again; it is not
- * talked into. What is heard has lost its start and will not pass as a frame. */
+/* Our choice: when something is heard after the request, its client has given up and is talking again; it is
+ * not talked into. What is heard has lost its start and will not pass as a frame. */
 void mb_line_answer(void)
 {
     uint16_t n;
@@ -119,9 +120,9 @@ void mb_frame_end_isr(uint8_t pdu_len) IN_ISR
     }
 }
 
-/* Our choice, for lines that come in lumps: the answer of another station and the client's next request may come
- * without a silence to tell them apart. What is a whole good frame of another station ends there. (Not so a frame to
- * us: by its contents alone nothing is executed.) */
+/* Our choice, for lines that come in lumps: the answer of another station and the client's next request may
+ * come without a silence to tell them apart. What is a whole good frame of another station ends there. (Not
+ * so a frame to us: by its contents alone nothing is executed.) */
 static bool foreign_frame_isr(void) IN_ISR
 {
     return mb_port.gap_tbit != 0 && mb_rx.state == MB_RECEPTION && mb_rx.crc == 0 && mb_rx.flaws == 0 &&
@@ -152,8 +153,8 @@ void line_octet_isr(uint8_t octet, uint8_t err) IN_ISR
     mb_rx.flaws |= err;
 }
 
-/* A gap between 1.5 and 3.5 characters spoils the frame; it ends when the line has been silent for 3.5 after the
- * last octet, whichever that was (the port measures from there). */
+/* A gap between 1.5 and 3.5 characters spoils the frame; it ends when the line has been silent for 3.5 after
+ * the last octet, whichever that was (the port measures from there). */
 void line_silence_isr(void) IN_ISR
 {
     if (mb_rx.state == MB_RECEPTION) {
@@ -167,8 +168,8 @@ void line_silence_isr(void) IN_ISR
     } /* else: an idle line, the limit is still set */
 }
 
-/* Our choice: the next frame may start at once, [S] figure 14 would wait t3.5 first. A client that keeps t3.5 sees
- * no difference; one on a pty, that asks again as soon as it has its answer, is served. */
+/* Our choice: the next frame may start at once, [S] figure 14 would wait t3.5 first. A client that keeps t3.5
+ * sees no difference; one on a pty, that asks again as soon as it has its answer, is served. */
 void line_sent_isr(void) IN_ISR
 {
     mb_rx.state = mb_idle_state;

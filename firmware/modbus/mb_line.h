@@ -1,8 +1,8 @@
 /* Between the line (mb_line.c, mb_ascii.c) and the server (mb_server.c): one buffer, handed to and fro.
  *
  * Invariant: mb_frame and the receiver's variables below belong to the interrupts while state is below
- * MB_READY, to main in MB_READY, to the port in MB_SENDING. Only their owner touches them, and only their owner
- * gives them away, by its last act: that is why neither takes a lock to read or write them.
+ * MB_READY, to main in MB_READY, to the port in MB_SENDING. Only their owner touches them, and only their
+ * owner gives them away, by its last act: that is why neither takes a lock to read or write them.
  */
 #ifndef FIELDLING_MB_LINE_H
 #define FIELDLING_MB_LINE_H
@@ -45,8 +45,8 @@ extern HOT struct mb_rx mb_rx;
  * choice: that is after the answer to 8/3 itself, and LF again after mb_open() or a restart. */
 extern uint8_t XDATA mb_delimiter, mb_next_delimiter;
 
-/* A frame has ended, its PDU in mb_pdu[0..pdu_len-1]; pdu_len 0: there was a frame, but not a good one. Counts
- * it, and keeps it if it is for us. */
+/* A frame has ended, its PDU in mb_pdu[0..pdu_len-1]; pdu_len 0: there was a frame, but not a good one.
+ * Counts it, and keeps it if it is for us. */
 void mb_frame_end_isr(uint8_t pdu_len) IN_ISR;
 
 /* Receive and time out in ASCII; mb_ascii.c. */
@@ -59,7 +59,8 @@ void mb_bad_frame_isr(uint8_t flaws) IN_ISR;
 /* Spell mb_adu[0..mb_pdu_len] out with LRC, CR and delimiter. -> characters. Main, in MB_READY. */
 uint16_t mb_ascii_encode(void);
 
-/* Send the answer mb_pdu[0..mb_pdu_len-1] from our address / give the frame back without one. Main, in MB_READY. */
+/* Send the answer mb_pdu[0..mb_pdu_len-1] from our address / give the frame back without one. Main, in
+ * MB_READY. */
 void mb_line_answer(void);
 static inline void mb_line_release(void)
 {

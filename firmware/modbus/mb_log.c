@@ -3,8 +3,8 @@
  *     request  0CH
  *     answer   0CH  octets:1  status:2  event count:2  message count:2  events, newest first, at most 64
  *
- * Our choice: the receive event of this very request is the newest one, for [A] stores it "before the remote device
- * processes the message".
+ * Our choice: the receive event of this very request is the newest one, for [A] stores it "before the remote
+ * device processes the message".
  */
 #include "modbus/mb_diag.h"
 #include "modbus/mb_line.h"

@@ -20,8 +20,8 @@ struct mb_row {
 MB_FUNCTIONS(MB_DECLARE)
 static const struct mb_row CODE rows[] = {MB_FUNCTIONS(MB_ROW)};
 
-/* [A] leaves open when a wrong length is found out; [S] appendix A and [A] 7 ("the implied length is incorrect")
- * make it exception 3, and here it comes before all that a handler looks at. */
+/* [A] leaves open when a wrong length is found out; [S] appendix A and [A] 7 ("the implied length is
+ * incorrect") make it exception 3, and here it comes before all that a handler looks at. */
 static uint8_t execute(void)
 {
     const struct mb_row CODE *row = rows;

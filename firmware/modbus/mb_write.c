@@ -18,7 +18,7 @@ uint8_t mb_write_one(void)
     if (mb_pdu[0] & 1u) {
         mb_span.table = MB_COILS;
         if (mb_pdu[4] || (uint8_t)(mb_pdu[3] + 1u) > 1u)
-            return MB_ILLEGAL_VALUE; /* neither 0000H nor FF00H; of those, bit 0 of the first octet is the coil */
+            return MB_ILLEGAL_VALUE; /* not 0000H, FF00H: bit 0 of their first octet is the coil */
     }
     mb_span.addr = get_u16be(mb_pdu + 1);
     mb_span.qty = 1;

@@ -1,5 +1,5 @@
-/* The request of the comparison, "read 10 holding registers", on a port that does nothing: what is counted between
- * the marks is the server's. Runs on a PC, a Cortex-M0 and an 8051. */
+/* The request of the comparison, "read 10 holding registers", on a port that does nothing: what is counted
+ * between the marks is the server's. Runs on a PC, a Cortex-M0 and an 8051. */
 #include "modbus_figures/request.h"
 #include "hal/hal.h"
 #include "modbus/mb.h"
