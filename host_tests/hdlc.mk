@@ -37,6 +37,11 @@ test_hdlc_errors_SRC      = $(REMOTE_TEST)
 test_hdlc_errors_DEFAULTS = $(HDLC_DEFAULTS)
 test_hdlc_errors_TIMEOUT  = 400
 
+UNIT_TESTS += test_hdlc_fuzz
+test_hdlc_fuzz_SRC      = $(REMOTE_TEST)
+test_hdlc_fuzz_DEFAULTS = $(HDLC_DEFAULTS)
+test_hdlc_fuzz_TIMEOUT  = 400
+
 # Host programs: a remote module; the master station.
 PROGRAMS += fieldling-hdlc
 fieldling-hdlc_SRC      = boards/posix/fieldling_hdlc.c boards/posix/hdlc_line.c boards/posix/rm_host_board.c \
