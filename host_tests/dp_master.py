@@ -26,7 +26,7 @@ def master(line, *arguments, commands="", timeout=60):
     """-> exit status, output, errors."""
     result = subprocess.run([str(BIN / "fieldling-master"), "--line", str(line), *map(str, arguments)], cwd=TOP,
                             input=commands.encode(), capture_output=True, timeout=timeout)
-    return result.returncode, result.stdout.decode(), result.stderr.decode()
+    return result.returncode, result.stdout.decode(), result.stderr.decode(errors="replace")
 
 
 def said(line, *arguments, status=OK, **more):
@@ -215,6 +215,27 @@ def test_diagnosis_comes_through():
         time.sleep(0.3)
         code, output = m.end()
         assert code == OK and "diagnosis 08 0C 00 02 12 34 02 07" in output, output
+
+
+def test_damaged_files_are_refused_or_read_but_never_stop_it():
+    """The line does not exist: exit status 4 means that the file was read."""
+    import random
+    source, seen = random.Random(3), set()
+    good = {".gsd": (TOP / GSD).read_bytes(), ".conf": CONFIG.format(gsd=TOP / GSD).encode()}
+    with tempfile.TemporaryDirectory() as folder:
+        for i in range(400 if os.environ.get("TEST_FULL") else 60):
+            kind = (".gsd", ".conf")[i % 2]
+            text = bytearray(good[kind])
+            for _ in range(source.randrange(1, 8)):
+                at = source.randrange(len(text))
+                text[at:at + source.randrange(40)] = bytes(source.choices(b'"=;()\\\r\n0xF,- aZ9\xff\0', k=source.randrange(30)))
+            path = Path(folder) / ("bus" + kind)
+            path.write_bytes(text)
+            arguments = ["--slave", f"8={path}", "cyclic"] if kind == ".gsd" else ["cyclic", path]
+            code, _, errors = master("/no/such/line", *arguments)
+            assert code in (USAGE, LINE) and errors.count("\n") == 1, (code, errors, bytes(text))
+            seen.add(code)
+    assert seen == {USAGE, LINE}
 
 
 class Segment:

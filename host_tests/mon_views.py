@@ -355,6 +355,40 @@ def test_hdlc():
     assert "1 wrong: FCS is 0000" in lines[-1], lines[-1]
 
 
+# ---- a line, live -------------------------------------------------------------------------------------------------
+
+def test_a_live_line_and_its_error_marks():
+    """A pty: what is written to one end is heard at the other. Linux marks a good FF as FF FF where errors are marked, on
+    a pty too; a damaged octet, FF 00 X, cannot be made there."""
+    import pty
+    import time
+    import tty
+    ours, theirs = pty.openpty()
+    tty.setraw(theirs)
+    process = subprocess.Popen([str(MON), "--view", "both", os.ttyname(theirs)], stdout=subprocess.PIPE, cwd=TOP)
+    try:
+        lines = []
+        for octets in ("10 08 02 49 53 16", "68 05 05 68 FF 82 44 3A FF FE 16", "DC 02 02"):
+            for _ in range(200):  # until it has opened the line: what came before is gone
+                os.write(ours, bytes.fromhex(octets))
+                time.sleep(0.05)
+                os.set_blocking(process.stdout.fileno(), False)
+                text = process.stdout.read()
+                if text:
+                    lines += [" ".join(line.split()[2:]) for line in text.decode().splitlines()]
+                    break
+        process.terminate()
+        process.wait(10)
+    finally:
+        process.kill()
+        os.close(ours)
+        os.close(theirs)
+    assert "0 2 -> 8 FDL req. FDL Status" in lines and "0 10 08 02 49 53 16" in lines, lines
+    # DA FF: everybody, with DSAP 3A and SSAP FF; FF + 82 + 44 + 3A + FF = 2FE
+    assert "0 68 05 05 68 ff 82 44 3a ff fe 16" in lines, lines
+    assert "0 2 -> 2 FDL token" in lines, lines
+
+
 # ---- usage --------------------------------------------------------------------------------------------------------
 
 def test_the_readmes_sample_is_what_is_printed():

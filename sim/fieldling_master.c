@@ -59,9 +59,13 @@ static struct master_options o = {.cycle_ms = 10};
 static const char *path, *record;
 static unsigned slot_ms = 30, retries = 1;
 
+/* A text may come from a file that is none of ours: no control characters reach the terminal. */
 static int unusable(const char *what, const char *why)
 {
-    fprintf(stderr, "fieldling-master: %s: %s\n", what, why);
+    fprintf(stderr, "fieldling-master: %s: ", what);
+    for (; *why; why++)
+        fputc((unsigned char)*why < ' ' || *why == 0x7F ? '.' : *why, stderr);
+    fputc('\n', stderr);
     exit(M_USAGE);
 }
 

@@ -29,7 +29,9 @@ static const char help[] =
     "  --pa | --modbus rtu|ascii | --hdlc   another protocol than PROFIBUS-DP\n"
     "  --summary                at the end, what each station did\n"
     "  --plot FILE.svg          at the end, a picture of the last bus cycles and of T_SDR\n"
-    "  -w FILE.pcapng           for Wireshark with sim/wireshark/profibus_dp.lua\n"
+    "  -w FILE.pcapng           for Wireshark with sim/wireshark/profibus_dp.lua; -w -: to standard output, "
+    "for\n"
+    "                           `wireshark -k -i -`, and no telegrams are printed\n"
     "  --record FILE            keep what was heard, as a record\n"
     "\n"
     "Exit status: 0; 1 a telegram was wrong; 2 wrong usage or unreadable input.\n";
@@ -94,14 +96,14 @@ static void on_signal(int number)
 }
 
 /* Octets that come in one lump ended now, one after the other. */
-static void lump(const uint8_t *octets, unsigned n, uint64_t now)
+static void lump(const uint8_t *octets, const uint8_t *err, unsigned n, uint64_t now)
 {
     static uint64_t line_free;
     uint64_t start = now > n * mon_char() ? now - n * mon_char() : 0;
     if (start < line_free)
         start = line_free;
     for (unsigned i = 0; i < n; i++) {
-        const struct mon_octet octet = {start + i * mon_char(), octets[i], 0};
+        const struct mon_octet octet = {start + i * mon_char(), octets[i], err[i]};
         mon_split(&octet, show);
     }
     line_free = start + n * mon_char();
@@ -110,17 +112,20 @@ static void lump(const uint8_t *octets, unsigned n, uint64_t now)
 static void listen_to(const char *path)
 {
     const char *why;
-    uint8_t octets[512];
+    uint8_t octets[512], err[512];
+    struct port_marks marks = {0};
     const int fd = port_open(path, mon.rate, o.format, &why);
     if (fd < 0)
         unusable(path, why);
+    if (!port_mark_errors(fd))
+        unusable(path, "its driver cannot mark parity errors");
     struct pollfd p = {fd, POLLIN, 0};
     mon.gap = mon.gap ? mon.gap : MON_LUMPS;
     while (!stopped) {
         const int ready = poll(&p, 1, 20);
         const ssize_t n = ready > 0 ? read(fd, octets, sizeof octets) : 0;
         if (n > 0)
-            lump(octets, (unsigned)n, port_now());
+            lump(octets, err, port_unmark(&marks, octets, err, (unsigned)n), port_now());
         else if (ready > 0 && (n == 0 || errno != EAGAIN))
             break; /* the other end has gone */
         mon_split_idle(port_now(), show);
@@ -206,6 +211,8 @@ static void take(int option, const char *value)
         break;
     case 'w':
         o.pcapng = value;
+        if (strcmp(value, "-") == 0)
+            o.command = o.hex = o.verbose = false;
         break;
     case OPT_RECORD:
         o.record = fopen(value, "w");

@@ -4,6 +4,7 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #define REFRESH (200u * (uint64_t)ML_MS)
@@ -165,22 +166,34 @@ static double ms(uint64_t ticks)
     return (double)ticks / ML_MS;
 }
 
+/* The live table is drawn over itself, so it must not be longer than the terminal. */
+static unsigned rows_that_fit(void)
+{
+    struct winsize w;
+    if (!live || ioctl(STDOUT_FILENO, TIOCGWINSZ, &w) != 0 || w.ws_row < 6)
+        return m.slaves_n;
+    return m.slaves_n < w.ws_row - 4u ? m.slaves_n : w.ws_row - 4u;
+}
+
 static void table(void)
 {
     char outputs[26], inputs[26];
     printf("station %-16s state          exchanges   lost refused diags  outputs                   inputs\n",
            "model");
-    for (unsigned i = 0; i < m.slaves_n; i++) {
+    const unsigned fit = rows_that_fit();
+    for (unsigned i = 0; i < fit; i++) {
         const struct dp_slave *const s = &m.slaves[i];
         hex(outputs, sizeof outputs, s->outputs, s->out_n);
         hex(inputs, sizeof inputs, s->inputs, s->in_n);
         printf("%7u %-16.16s %-14s %9u %6u %7u %5u  %-25s %s\n", s->address, setup->model[i],
                state_words[s->state], s->exchanges, s->lost, s->refusals, s->diags, outputs, inputs);
     }
+    if (fit < m.slaves_n)
+        printf("(%u more) ", m.slaves_n - fit);
     printf("%s, cycle %.1f ms (longest %.1f), %u requests, %u retries; \"quit\" or Ctrl-C ends, \"help\" "
            "helps\n",
            clear ? "Clear" : "Operate", ms(m.cycle_time), ms(cycle_max), m.ini.sent, m.ini.resent);
-    rows = m.slaves_n + 2;
+    rows = fit + 2;
 }
 
 static void show_live(void)

@@ -35,7 +35,7 @@ bool mon_pcapng_open(const char *path)
 {
     static const uint8_t resolution[] = {9, 0, 1, 0, 9, 0,
                                          0, 0, 0, 0, 0, 0}; /* if_tsresol 10^-9, end of options */
-    file = fopen(path, "wb");
+    file = strcmp(path, "-") == 0 ? stdout : fopen(path, "wb");
     if (!file)
         return false;
     put_u32(0x0A0D0D0A); /* section header */

@@ -39,6 +39,7 @@ static bool set_up(int fd, uint32_t rate, enum port_format format)
     t.c_cc[VTIME] = 0;
     if (ioctl(fd, TCSETS2, &t) < 0)
         return false;
+    ioctl(fd, TCFLSH, TCIFLUSH); /* what came before it was set up may have been changed on its way */
     return ioctl(fd, TCGETS2, &got) == 0;
 }
 
@@ -55,6 +56,35 @@ int port_open(const char *path, uint32_t rate, enum port_format format, const ch
         return -1;
     }
     return fd;
+}
+
+bool port_mark_errors(int fd)
+{
+    struct termios2 t;
+    if (ioctl(fd, TCGETS2, &t) < 0)
+        return false;
+    t.c_iflag = (t.c_iflag & ~(tcflag_t)(IGNBRK | IGNPAR | ISTRIP)) | INPCK | PARMRK;
+    return ioctl(fd, TCSETS2, &t) == 0;
+}
+
+/* PARMRK (termios): a damaged octet X is read as FF 00 X, a good FF as FF FF. */
+unsigned port_unmark(struct port_marks *m, uint8_t *octets, uint8_t *err, unsigned n)
+{
+    enum { PLAIN, AFTER_FF, DAMAGED };
+    unsigned left = 0;
+    for (unsigned i = 0; i < n; i++) {
+        const uint8_t octet = octets[i];
+        if (m->state == PLAIN && octet == 0xFF) {
+            m->state = AFTER_FF;
+        } else if (m->state == AFTER_FF && octet == 0) {
+            m->state = DAMAGED;
+        } else {
+            err[left] = m->state == DAMAGED ? PORT_PARITY : 0;
+            octets[left++] = octet;
+            m->state = PLAIN;
+        }
+    }
+    return left;
 }
 
 static uint64_t clock_ns(clockid_t clock)
