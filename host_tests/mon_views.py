@@ -261,6 +261,8 @@ def test_the_plot_is_a_picture():
         # the last cycles: from the first exchange to the last, two requests, a retry and two answers: 5 bars
         colors = [r.get("fill") for r in root.iter("{http://www.w3.org/2000/svg}rect")]
         assert colors.count("#2f6db3") == 3 + 1 and colors.count("#3a9d5d") >= 2 + 1, colors
+        mon("-q", "--plot", path, "-", record="# untimed\n1.0 E5\n", status=0)  # nothing takes time
+        assert "The last telegrams" in path.read_text()
         mon("-q", "--plot", path, "-", record="", status=0)
         assert "no telegrams" in path.read_text()
 
@@ -280,7 +282,7 @@ def test_pa_octets():
     lines = mon("--pa", "-", record=record, status=1)
     assert [line.split(" ", 2)[2] for line in lines] == [
         "0 2 -> 8 FDL req. FDL Status", "0 2 -> 2 FDL token", "0 2.62 -> 8.60 DP req. Slave Diag",
-        "0 FDL res. short acknowledge, nobody asked", "1 wrong: CRC is DC06, right is DC05"]
+        "0 (8 -> 2) FDL res. short acknowledge of Slave Diag", "1 wrong: CRC is DC06, right is DC05"]
 
 
 def test_modbus_rtu_and_ascii():

@@ -79,7 +79,7 @@ void mon_modbus_judge(struct mon_frame *f);
 
 /* ---- frames -> meaning -------------------------------------------------------------------------------- */
 
-/* Finds request and answer, retries and T_SDR of DP (mon_pair.c), request and response time of Modbus. */
+/* Finds request and answer, retries and T_SDR of DP (mon_pair.c), of PA likewise; request and response time of Modbus. */
 void mon_pair(struct mon_frame *f);
 void mon_modbus_pair(struct mon_frame *f);
 

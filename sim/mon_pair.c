@@ -58,7 +58,7 @@ void mon_pair(struct mon_frame *f)
 {
     if (f->good && (mon.protocol == MON_MODBUS_RTU || mon.protocol == MON_MODBUS_ASCII))
         mon_modbus_pair(f);
-    if (mon.protocol != MON_DP || !f->good)
+    if ((mon.protocol != MON_DP && mon.protocol != MON_PA) || !f->good)
         return; /* a damaged answer leaves the request open: it counts as unanswered */
     if (is_answer(&f->tg))
         pair_answer(f);

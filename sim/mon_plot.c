@@ -172,20 +172,58 @@ static void legend(FILE *to, double y, const bool used[KINDS])
     }
 }
 
+struct picture {
+    size_t from, until; /* frames */
+    uint8_t lane_of[129], station_of[LANES_MAX];
+    unsigned lanes;
+    double y, ms; /* top of the lanes; time across */
+};
+
+static void lane_names(FILE *to, const struct picture *p)
+{
+    char label[32];
+    for (unsigned i = 0; i < p->lanes; i++) {
+        const uint8_t station = p->station_of[i];
+        fprintf(to, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\"/>\n", LEFT,
+                p->y + i * LANE, WIDTH - LEFT - RIGHT, LANE, i % 2 ? "#ffffff" : "#f2f4f7");
+        if (station == 128)
+            snprintf(label, sizeof label, "unknown");
+        else
+            snprintf(label, sizeof label, is_master(p->from, p->until, station) ? "master %u" : "station %u",
+                     station);
+        text(to, LEFT - 8, p->y + i * LANE + LANE / 2 + 4, "end", label);
+    }
+}
+
+static void bars(FILE *to, const struct picture *p, bool used[KINDS])
+{
+    const double scale = (WIDTH - LEFT - RIGHT) / p->ms;
+    for (size_t i = p->from; i < p->until; i++) {
+        const struct shown *const f = &frames[i];
+        const double x = LEFT + (double)(f->start - frames[p->from].start) / 1e6 * scale;
+        const double w = (double)(f->end - f->start) / 1e6 * scale;
+        if (p->lane_of[f->by] == 255)
+            continue;
+        used[f->kind] = true;
+        fprintf(to, "<rect x=\"%.2f\" y=\"%.1f\" width=\"%.2f\" height=\"%.1f\" fill=\"%s\"/>\n", x,
+                p->y + p->lane_of[f->by] * LANE + 6, w < 0.6 ? 0.6 : w, LANE - 12, kinds[f->kind].color);
+    }
+}
+
 /* -> the y below it. */
 static double timing(FILE *to, double y)
 {
-    size_t from, until;
+    struct picture p;
     double cycle_ms;
-    uint8_t lane_of[129], station_of[LANES_MAX];
     char label[120];
     bool used[KINDS] = {false};
-    window(&from, &until, &cycle_ms);
-    const unsigned n = lanes(from, until, lane_of, station_of);
-    const unsigned known = n && station_of[n - 1] == 128 ? n - 1 : n;
-    const uint64_t zero = frames[from].start;
-    const double span = (double)(frames[until - 1].end - zero) / 1e6;
-    const double scale = (WIDTH - LEFT - RIGHT) / span;
+    window(&p.from, &p.until, &cycle_ms);
+    p.lanes = lanes(p.from, p.until, p.lane_of, p.station_of);
+    p.y = y + 16;
+    p.ms = (double)(frames[p.until - 1].end - frames[p.from].start) / 1e6;
+    if (p.ms <= 0) /* one telegram that takes no time */
+        p.ms = 1;
+    const unsigned known = p.lanes && p.station_of[p.lanes - 1] == 128 ? p.lanes - 1 : p.lanes;
     if (cycle_ms > 0)
         snprintf(label, sizeof label, "The last bus cycles: %.3f ms each, %u stations, %g kbit/s", cycle_ms,
                  known, mon.rate / 1e3);
@@ -193,29 +231,10 @@ static double timing(FILE *to, double y)
         snprintf(label, sizeof label, "The last telegrams: %u stations, %g kbit/s", known, mon.rate / 1e3);
     fprintf(to, "<text x=\"%.1f\" y=\"%.1f\" font-size=\"15\" font-weight=\"bold\">%s</text>\n", LEFT, y,
             label);
-    y += 16;
-    for (unsigned i = 0; i < n; i++) {
-        fprintf(to, "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" fill=\"%s\"/>\n", LEFT,
-                y + i * LANE, WIDTH - LEFT - RIGHT, LANE, i % 2 ? "#ffffff" : "#f2f4f7");
-        if (station_of[i] == 128)
-            snprintf(label, sizeof label, "unknown");
-        else
-            snprintf(label, sizeof label, is_master(from, until, station_of[i]) ? "master %u" : "station %u",
-                     station_of[i]);
-        text(to, LEFT - 8, y + i * LANE + LANE / 2 + 4, "end", label);
-    }
-    for (size_t i = from; i < until; i++) {
-        const double x = LEFT + (double)(frames[i].start - zero) / 1e6 * scale;
-        const double w = (double)(frames[i].end - frames[i].start) / 1e6 * scale;
-        if (lane_of[frames[i].by] == 255)
-            continue;
-        used[frames[i].kind] = true;
-        fprintf(to, "<rect x=\"%.2f\" y=\"%.1f\" width=\"%.2f\" height=\"%.1f\" fill=\"%s\"/>\n", x,
-                y + lane_of[frames[i].by] * LANE + 6, w < 0.6 ? 0.6 : w, LANE - 12,
-                kinds[frames[i].kind].color);
-    }
-    y += n * LANE;
-    axis(to, y, span, " ms");
+    lane_names(to, &p);
+    bars(to, &p, used);
+    y = p.y + p.lanes * LANE;
+    axis(to, y, p.ms, " ms");
     legend(to, y + 42, used);
     return y + 42;
 }

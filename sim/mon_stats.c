@@ -39,7 +39,7 @@ static void request(const struct mon_frame *f)
     if (waiting_for >= 0)
         stations[waiting_for].unanswered++;
     waiting_for = tg_wants_answer(&f->tg) ? (int)to : -1;
-    if (f->seq && !mon.untimed && mon_tbit(f->idle) < 33 - 0.5)
+    if (f->seq && !mon.untimed && mon.protocol == MON_DP && mon_tbit(f->idle) < 33 - 0.5)
         no_syn++;
     stations[to].requests++;
     stations[to].retries += f->retry;
@@ -73,7 +73,7 @@ void mon_stats_frame(const struct mon_frame *f)
     last = f->end;
     busy += f->end - f->start;
     wrong += !f->good;
-    if (!f->good || mon.protocol != MON_DP)
+    if (!f->good || (mon.protocol != MON_DP && mon.protocol != MON_PA))
         return;
     if (f->tg.sd == TG_SD4)
         tokens++;
@@ -114,7 +114,7 @@ void mon_stats_print(FILE *to)
         fprintf(to, ", line busy %.1f %%, %lu requests without T_SYN",
                 seconds > 0 ? (double)busy / seconds / 1e7 : 0, no_syn);
     fprintf(to, "; %lu wrong, %lu tokens\n", wrong, tokens);
-    if (mon.protocol != MON_DP)
+    if (mon.protocol != MON_DP && mon.protocol != MON_PA)
         return;
     fprintf(to, "station requests answers   E5 refused retries no-answer  T_SDR min/median/max [T_bit]  "
                 "cycle min/median/max [ms]\n");
