@@ -12,7 +12,7 @@ UNIT_TESTS += test_hdlc_bits
 test_hdlc_bits_SRC = sim/hdlc_bits.c
 
 UNIT_TESTS += test_hdlc_nrm
-test_hdlc_nrm_SRC      = $(HDLC_SRC) $(HDLC_BUS)
+test_hdlc_nrm_SRC      = $(HDLC_SRC) $(HDLC_BUS) sim/hdlc_pcap.c
 test_hdlc_nrm_DEFAULTS = $(HDLC_DEFAULTS)
 
 UNIT_TESTS += test_hdlc_8273
@@ -61,3 +61,6 @@ fieldling-hdlc-cable_SRC = sim/hdlc_cable_main.c sim/hdlc_bits.c sim/hdlc_pcap.c
 .PHONY: run-hdlc
 run-hdlc: $(addprefix build/posix/,fieldling-hdlc fieldling-hdlc-master fieldling-hdlc-cable)
 	@sh boards/posix/hdlc_demo.sh
+
+SCRIPT_TESTS += host_tests/hdlc_host.py
+host_tests/hdlc_host.py_TIMEOUT = 300

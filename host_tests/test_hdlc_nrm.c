@@ -4,8 +4,10 @@
 #include "hdlc/hdlc_8273.h"
 #include "hdlc/hdlc_nrm.h"
 #include "sim/hdlc_bus.h"
+#include "sim/hdlc_pcap.h"
 #include "unity.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 static uint8_t delivered[16][HDLC_INFO_MAX];
@@ -60,11 +62,22 @@ static void init(void)
     TEST_ASSERT_TRUE(hdlc_nrm_init(5, 0xFF, 0));
 }
 
+/* HDLC_PCAP=FILE in the environment: all frames of all tests into a capture, for decoders of others
+ * (host_tests/hdlc_host.py). */
+static FILE *capture;
+
+static void tap(const uint8_t *octets, unsigned n, bool from_station)
+{
+    (void)from_station;
+    hdlc_pcap_frame(capture, octets, n, hbus.now * 1000000u / 7200u);
+}
+
 void setUp(void)
 {
     deliveries = uis = states = 0;
     mute = false;
     hbus_begin();
+    hbus.tap = capture ? tap : NULL;
     hbus_station(init, hdlc_nrm_poll);
     hbus_run(20);
 }
@@ -500,6 +513,8 @@ static void test_worked_session_of_a_plc_network(void)
 
 int main(void)
 {
+    if (getenv("HDLC_PCAP"))
+        capture = hdlc_pcap_open(getenv("HDLC_PCAP"));
     UNITY_BEGIN();
     RUN_TEST(test_ndm_snrm_is_answered_ua_and_connects);
     RUN_TEST(test_ndm_any_other_command_with_p_is_answered_dm);

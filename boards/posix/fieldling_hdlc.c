@@ -184,7 +184,7 @@ static void cmd_fault(char **words, uint8_t n)
     if (n != 3 || on_or_off(words[2]) < 0 || !rm_host_fault(words[1], on_or_off(words[2]) == 1))
         console_error("usage-fault-ram-program-converter-or-output-on-or-off");
     else
-        console_say("fault=%s %s", words[1], words[2]);
+        console_say("fault=%s is=%s", words[1], words[2]);
 }
 
 static void trace(enum hb_event event, const uint8_t *octets, unsigned n, bool sent)
