@@ -9,6 +9,7 @@
  *   HOT      internal RAM, direct: the few variables an octet interrupt touches
  *            (flags in a HOT struct are uint8_t: of `hot.flag = a == b` with a bool flag, SDCC 4.2 forgets the store)
  *   IDATA    internal RAM, indirect
+ *   PAGED    the 256 octets of external RAM whose pointers are one octet: tables that interrupts walk
  *   CODE     program memory: constant tables and strings
  *   IN_ISR   ends the declaration AND the definition of every function whose name ends in _isr
  *   REENTRANT  locals on the stack: for a function reached through a pointer with two or more arguments. Not for
@@ -25,6 +26,7 @@
 #define XDATA     __xdata
 #define HOT       __data
 #define IDATA     __idata
+#define PAGED     __pdata
 #define CODE      __code
 #define IN_ISR    __using(1)
 #define REENTRANT __reentrant
@@ -32,6 +34,7 @@
 #define XDATA
 #define HOT
 #define IDATA
+#define PAGED
 #define CODE
 #define IN_ISR
 #define REENTRANT

@@ -3,8 +3,8 @@
 struct unit_ind XDATA ind;
 struct unit_isr XDATA isr;
 struct fdl_counters XDATA counters;
-struct fdl_reply XDATA reply_10;
-struct fdl_reply XDATA reply_nil;
+struct fdl_reply PAGED reply_10;
+struct fdl_reply PAGED reply_nil;
 
 static uint8_t XDATA rooms_10[3][FDL_ROOM(16)];
 static uint8_t XDATA rooms_nil[3][FDL_ROOM(246)];

@@ -37,8 +37,8 @@ void unit_count(void);
     } while (0)
 
 /* SAP 10 with an update buffer of up to 16 octets; another one on the default SAP. */
-extern struct fdl_reply XDATA reply_10;
-extern struct fdl_reply XDATA reply_nil;
+extern struct fdl_reply PAGED reply_10;
+extern struct fdl_reply PAGED reply_nil;
 void unit_srd_sap(uint8_t handling);
 void unit_default_sap(uint8_t handling);
 

@@ -12,7 +12,7 @@ void tearDown(void)
     fake_end();
 }
 
-static struct fdl_sap XDATA how = {FDL_ALL, FDL_SRD, 4, FDL_ANSWER_ONLY, 0};
+static struct fdl_sap PAGED how = {FDL_ALL, FDL_SRD, 4, FDL_ANSWER_ONLY, 0};
 
 static void saps_0_to_62_and_the_default_sap_can_be_activated(void)
 {

@@ -9,7 +9,7 @@ HOT uint8_t fdl_ts;
 struct fdl_counters XDATA fdl_counters;
 
 static uint8_t XDATA rooms[3][FDL_ROOM(246)];
-static struct fdl_reply XDATA reply;
+static struct fdl_reply PAGED reply;
 static uint8_t XDATA lsdu[246];
 
 void line_octet_isr(uint8_t octet, uint8_t err) IN_ISR

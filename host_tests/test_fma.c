@@ -204,7 +204,7 @@ static void the_thirteenth_sap_has_no_resource(void)
 
 static void lsap_status_shows_what_was_activated(void)
 {
-    static struct fdl_sap XDATA sap;
+    static struct fdl_sap PAGED sap;
 
     TEST_ASSERT_EQUAL(FMA_LS, fma_lsap_status(20, &sap));
     fma_sap_activate(20, 3, FDL_SDA, 17, FDL_TO_ISR);

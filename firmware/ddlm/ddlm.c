@@ -49,7 +49,7 @@ static const CODE struct service services[SERVICES] = {
     {FDL_SAP_NIL,          IN_DATA_EXCH, ANY_LEN, FDL_TO_ISR,      INPUT_REPLY,    true},
 };
 
-static struct fdl_reply XDATA *reply_at(uint8_t which)
+static struct fdl_reply PAGED *reply_at(uint8_t which)
 {
     switch (which) {
     case CFG_REPLY:

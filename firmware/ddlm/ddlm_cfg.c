@@ -12,7 +12,7 @@ static const CODE uint8_t own_cfg[] = {DEV_MODULES(DEV_IDENTIFIERS)};
 
 STATIC_ASSERT(sizeof own_cfg <= DEV_CFG_MAX, own_configuration_fits_DEV_CFG_MAX);
 
-struct fdl_reply XDATA ddlm_cfg_reply;
+struct fdl_reply PAGED ddlm_cfg_reply;
 static uint8_t XDATA rooms[3][FDL_ROOM(DEV_CFG_MAX)];
 static uint8_t XDATA real_cfg[DEV_CFG_MAX]; /* what Get_Cfg says */
 static uint8_t real_len;

@@ -28,8 +28,8 @@ struct outputs {
     bool filled;
 };
 
-struct fdl_reply XDATA ddlm_input_reply;
-struct fdl_reply XDATA ddlm_rd_outp_reply;
+struct fdl_reply PAGED ddlm_input_reply;
+struct fdl_reply PAGED ddlm_rd_outp_reply;
 static uint8_t XDATA input_rooms[3][FDL_ROOM(DEV_INPUT_MAX)];
 static uint8_t XDATA rd_outp_rooms[3][FDL_ROOM(DEV_OUTPUT_MAX)];
 

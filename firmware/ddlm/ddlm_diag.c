@@ -10,13 +10,13 @@
 #define FIXED_LEN 6u
 #define MAX_LEN   (FIXED_LEN + DEV_EXT_DIAG_MAX)
 
-struct fdl_reply XDATA ddlm_diag_reply;
+struct fdl_reply PAGED ddlm_diag_reply;
 static uint8_t XDATA rooms[3][FDL_ROOM(MAX_LEN)];
 static uint8_t XDATA diag[MAX_LEN];
 
 /* What is said to a master whose Set_Prm or Chk_Cfg has been acknowledged but not looked at yet: not ready, nothing wrong.
  * A master that polls faster than the main loop turns would otherwise read "parameters requested" and begin anew. */
-static struct fdl_reply XDATA pending_reply;
+static struct fdl_reply PAGED pending_reply;
 static uint8_t XDATA pending_rooms[3][FDL_ROOM(FIXED_LEN)];
 
 static uint8_t len;

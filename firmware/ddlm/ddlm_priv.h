@@ -57,7 +57,7 @@ void ddlm_chk_cfg_ind(const struct fdl_ind XDATA *ind);
 void ddlm_set_slave_add_ind(const struct fdl_ind XDATA *ind);
 
 /* ---- ddlm_cfg.c ---- */
-extern struct fdl_reply XDATA ddlm_cfg_reply;
+extern struct fdl_reply PAGED ddlm_cfg_reply;
 void ddlm_cfg_init(void);
 
 /* ---- ddlm_addr.c: address in non-volatile memory ---- */
@@ -65,15 +65,15 @@ uint8_t ddlm_stored_address(void);        /* 0..125, or 126 where none is stored
 bool ddlm_stored_lock(void);
 
 /* ---- ddlm_diag.c ---- */
-extern struct fdl_reply XDATA ddlm_diag_reply;
+extern struct fdl_reply PAGED ddlm_diag_reply;
 void ddlm_diag_init(void);
 void ddlm_diag_update(void);              /* something Slave_Diag shows has changed */
 void ddlm_diag_poll(void);
 void ddlm_diag_read_isr(void) IN_ISR;     /* the master is reading it               */
 
 /* ---- ddlm_data.c: Data_Exchange and Global_Control ---- */
-extern struct fdl_reply XDATA ddlm_input_reply;
-extern struct fdl_reply XDATA ddlm_rd_outp_reply;
+extern struct fdl_reply PAGED ddlm_input_reply;
+extern struct fdl_reply PAGED ddlm_rd_outp_reply;
 void ddlm_data_init(void);
 void ddlm_data_start(void);               /* a new configuration: no inputs yet, outputs fail-safe      */
 void ddlm_data_safe(void);                /* outputs fail-safe, Sync and Freeze off                     */

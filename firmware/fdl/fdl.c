@@ -63,7 +63,7 @@ static struct {
     uint8_t fcs;
     const uint8_t XDATA *answer;
     uint8_t answer_len;
-    struct fdl_reply XDATA *reply; /* the answer stands in its room; 0 = elsewhere */
+    struct fdl_reply PAGED *reply; /* the answer stands in its room; 0 = elsewhere */
     uint8_t turns;                 /* of reply, when the answer was built          */
 } IDATA last;
 
@@ -177,7 +177,7 @@ static void remember_isr(void) IN_ISR
 }
 
 /* Keep the answer just built for a retry. */
-static void keep_answer_isr(struct fdl_reply XDATA *reply) IN_ISR
+static void keep_answer_isr(struct fdl_reply PAGED *reply) IN_ISR
 {
     last.answer = fdl_tx.at;
     last.answer_len = fdl_tx.len;
@@ -213,7 +213,7 @@ static bool repeated_isr(void) IN_ISR
 
 /* ---- services -------------------------------------------------------------------------------------------------------- */
 
-static struct fdl_sap XDATA *HOT row; /* of the request's SAP */
+static struct fdl_sap PAGED *HOT row; /* of the request's SAP */
 
 /* The SAP's decision -> FDL_OK or the refusal. */
 static uint8_t indicate_isr(void) IN_ISR
@@ -259,7 +259,7 @@ static void acknowledged_isr(void) IN_ISR
 /* FDL status, Ident and LSAP status: not numbered, they leave the FCB alone. */
 static void status_isr(uint8_t function) IN_ISR
 {
-    struct fdl_reply XDATA *reply = 0;
+    struct fdl_reply PAGED *reply = 0;
 
     if (function == FDL_IDENT)
         reply = fdl_ident_reply_isr();

@@ -137,7 +137,7 @@ struct fdl_reply {
 
 /* Bind a reply to three rooms of FDL_ROOM(max) octets laid one after the other at rooms; empty. max 0..246; asked with
  * both SAPs, no more than 244 can be sent: UE. main. */
-void fdl_reply_init(struct fdl_reply XDATA *reply, uint8_t XDATA *rooms, uint8_t max);
+void fdl_reply_init(struct fdl_reply PAGED *reply, uint8_t XDATA *rooms, uint8_t max);
 
 /* Who deals with a request once FDL has checked station, service and length (the standard's Indication_mode, widened). */
 enum fdl_handling {
@@ -151,16 +151,16 @@ struct fdl_sap {
     uint8_t services; /* FDL_SDA | FDL_SDN | FDL_SRD                   */
     uint8_t max_len;  /* longest L_sdu of a request; longer: RR        */
     uint8_t handling; /* enum fdl_handling                             */
-    struct fdl_reply XDATA *reply; /* or 0: an SRD is answered SC      */
+    struct fdl_reply PAGED *reply; /* or 0: an SRD is answered SC      */
 };
 
 /* Activate (or change) / deactivate SAP number 0..62 or FDL_SAP_NIL. False: no such SAP, or FDL_SAPS are active
  * already / it was not active. Use fma.h from outside this folder. main. */
-bool fdl_sap_set(uint8_t sap, const struct fdl_sap XDATA *how);
+bool fdl_sap_set(uint8_t sap, const struct fdl_sap PAGED *how);
 bool fdl_sap_clear(uint8_t sap);
 
 /* The active SAP's row, or 0. isr, lock. */
-struct fdl_sap XDATA *fdl_sap_row_isr(uint8_t sap) IN_ISR;
+struct fdl_sap PAGED *fdl_sap_row_isr(uint8_t sap) IN_ISR;
 
 /* FDL_REPLY_UPDATE.request / .confirm -> enum fdl_l_status. The L_sdu is copied and will answer the next SRD to ssap,
  * with priority FDL_UPDATE_LOW or _HIGH, once (FDL_UPDATE_SINGLE) or until updated again. main. */
@@ -172,10 +172,10 @@ enum fdl_l_status { FDL_L_OK, FDL_L_LS /* SAP not active or without reply */, FD
 uint8_t fdl_reply_update(uint8_t ssap, const uint8_t XDATA *lsdu, uint8_t len, uint8_t how);
 
 /* The same on a reply that need not be bound to an active SAP yet; len <= reply->max. main. */
-void fdl_reply_write(struct fdl_reply XDATA *reply, const uint8_t XDATA *lsdu, uint8_t len, uint8_t how);
+void fdl_reply_write(struct fdl_reply PAGED *reply, const uint8_t XDATA *lsdu, uint8_t len, uint8_t how);
 
 /* Make what was written last the next answer even under hold. isr. */
-void fdl_reply_release_isr(struct fdl_reply XDATA *reply) IN_ISR;
+void fdl_reply_release_isr(struct fdl_reply PAGED *reply) IN_ISR;
 
 /* ---- the request at hand, isr --------------------------------------------------------------------------------------- */
 
@@ -188,7 +188,7 @@ struct fdl_req {
                                  recorded stations do */
     uint8_t len;              /* of lsdu; the telegram may have been longer: then it was refused */
     uint8_t XDATA *lsdu;
-    struct fdl_reply XDATA *reply; /* what an SRD will be answered from: the SAP's, or what fdl_ind_isr() puts here */
+    struct fdl_reply PAGED *reply; /* what an SRD will be answered from: the SAP's, or what fdl_ind_isr() puts here */
 };
 extern HOT struct fdl_req fdl_req;
 

@@ -57,15 +57,15 @@ extern IDATA struct fdl_frame fdl_tx; /* the answer built last */
 void fdl_tx_short_isr(void) IN_ISR;                           /* SC                                        */
 void fdl_tx_fixed_isr(uint8_t function) IN_ISR;               /* SD1                                       */
 void fdl_tx_status_isr(uint8_t function) IN_ISR;              /* SD1 that leaves the kept answer alone      */
-void fdl_tx_reply_isr(struct fdl_reply XDATA *reply) IN_ISR;  /* SD2, SD3, SD1 or SC, as the reply has it  */
+void fdl_tx_reply_isr(struct fdl_reply PAGED *reply) IN_ISR;  /* SD2, SD3, SD1 or SC, as the reply has it  */
 
 /* ---- fdl_sap: service access points ---- */
 
 void fdl_sap_reset(void);
 
 /* Update buffers that answer Ident, and LSAP status of SAP fdl_req.dsap (0: not active). */
-struct fdl_reply XDATA *fdl_ident_reply_isr(void) IN_ISR;
-struct fdl_reply XDATA *fdl_lsap_reply_isr(void) IN_ISR;
+struct fdl_reply PAGED *fdl_ident_reply_isr(void) IN_ISR;
+struct fdl_reply PAGED *fdl_lsap_reply_isr(void) IN_ISR;
 
 extern HOT uint8_t fdl_ts; /* this station's address */
 

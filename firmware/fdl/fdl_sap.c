@@ -7,7 +7,7 @@
 
 #define NO_ROW 0xFFu
 
-static struct fdl_sap XDATA rows[FDL_SAPS];
+static struct fdl_sap PAGED rows[FDL_SAPS];
 static uint8_t XDATA row_of[FDL_SAP_NUMBERS]; /* SAP number -> row, NO_ROW where not active */
 static uint8_t XDATA owner_of[FDL_SAPS];      /* row -> SAP number, NO_ROW where free        */
 
@@ -16,8 +16,8 @@ static uint8_t XDATA owner_of[FDL_SAPS];      /* row -> SAP number, NO_ROW where
 
 static uint8_t XDATA ident_rooms[3][FDL_ROOM(IDENT_MAX)];
 static uint8_t XDATA lsap_rooms[3][FDL_ROOM(LSAP_LEN)];
-static struct fdl_reply XDATA ident;
-static struct fdl_reply XDATA lsap;
+static struct fdl_reply PAGED ident;
+static struct fdl_reply PAGED lsap;
 
 /* ---- activation ------------------------------------------------------------------------------------------------------ */
 
@@ -33,7 +33,7 @@ void fdl_sap_reset(void)
     fdl_reply_init(&lsap, lsap_rooms[0], LSAP_LEN);
 }
 
-struct fdl_sap XDATA *fdl_sap_row_isr(uint8_t sap) IN_ISR
+struct fdl_sap PAGED *fdl_sap_row_isr(uint8_t sap) IN_ISR
 {
     uint8_t row = row_of[sap];
 
@@ -58,7 +58,7 @@ static uint8_t find_row(uint8_t sap)
     return NO_ROW;
 }
 
-bool fdl_sap_set(uint8_t sap, const struct fdl_sap XDATA *how)
+bool fdl_sap_set(uint8_t sap, const struct fdl_sap PAGED *how)
 {
     uint8_t row;
     uint8_t irq;
@@ -90,7 +90,7 @@ bool fdl_sap_clear(uint8_t sap)
 
 /* ---- update buffers -------------------------------------------------------------------------------------------------- */
 
-void fdl_reply_init(struct fdl_reply XDATA *reply, uint8_t XDATA *rooms, uint8_t max)
+void fdl_reply_init(struct fdl_reply PAGED *reply, uint8_t XDATA *rooms, uint8_t max)
 {
     uint8_t XDATA *second = rooms + FDL_ROOM(max);
 
@@ -106,7 +106,7 @@ void fdl_reply_init(struct fdl_reply XDATA *reply, uint8_t XDATA *rooms, uint8_t
     reply->single = false;
 }
 
-void fdl_reply_write(struct fdl_reply XDATA *reply, const uint8_t XDATA *lsdu, uint8_t len, uint8_t how)
+void fdl_reply_write(struct fdl_reply PAGED *reply, const uint8_t XDATA *lsdu, uint8_t len, uint8_t how)
 {
     uint8_t XDATA *room = reply->spare;
     uint8_t XDATA *to = room + FDL_ROOM_HEAD;
@@ -133,7 +133,7 @@ void fdl_reply_write(struct fdl_reply XDATA *reply, const uint8_t XDATA *lsdu, u
 
 uint8_t fdl_reply_update(uint8_t ssap, const uint8_t XDATA *lsdu, uint8_t len, uint8_t how)
 {
-    struct fdl_sap XDATA *row;
+    struct fdl_sap PAGED *row;
     uint8_t irq;
 
     if (!number_is_valid(ssap) || (how & ~(FDL_UPDATE_HIGH | FDL_UPDATE_SINGLE)))
@@ -156,7 +156,7 @@ void fdl_set_ident(const uint8_t XDATA *data, uint8_t len)
     fdl_reply_write(&ident, data, len < IDENT_MAX ? len : IDENT_MAX, FDL_UPDATE_LOW);
 }
 
-struct fdl_reply XDATA *fdl_ident_reply_isr(void) IN_ISR
+struct fdl_reply PAGED *fdl_ident_reply_isr(void) IN_ISR
 {
     return &ident;
 }
@@ -175,9 +175,9 @@ static uint8_t role_isr(bool active) IN_ISR
     return active ? ROLE_RESPONDER : ROLE_NONE;
 }
 
-struct fdl_reply XDATA *fdl_lsap_reply_isr(void) IN_ISR
+struct fdl_reply PAGED *fdl_lsap_reply_isr(void) IN_ISR
 {
-    struct fdl_sap XDATA *row = fdl_sap_row_isr(fdl_req.dsap);
+    struct fdl_sap PAGED *row = fdl_sap_row_isr(fdl_req.dsap);
     uint8_t XDATA *data = lsap.sent + FDL_ROOM_HEAD;
     uint8_t sum = 0;
     bool srd;

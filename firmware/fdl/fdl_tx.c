@@ -46,7 +46,7 @@ void fdl_tx_short_isr(void) IN_ISR
     fdl_tx.len = 1;
 }
 
-void fdl_reply_release_isr(struct fdl_reply XDATA *reply) IN_ISR
+void fdl_reply_release_isr(struct fdl_reply PAGED *reply) IN_ISR
 {
     uint8_t XDATA *sent;
 
@@ -69,7 +69,7 @@ static void tx_empty_isr(bool high) IN_ISR
 }
 
 /* By name and in internal RAM, not as arguments: see struct fdl_header. */
-static struct fdl_reply XDATA *HOT from;
+static struct fdl_reply PAGED *HOT from;
 static uint8_t XDATA *HOT lsdu;
 static uint8_t XDATA *HOT at;
 static HOT uint8_t len; /* of the L_sdu                      */
@@ -137,7 +137,7 @@ static void frame_isr(void) IN_ISR
     at[1] = FDL_ED;
 }
 
-void fdl_tx_reply_isr(struct fdl_reply XDATA *reply) IN_ISR
+void fdl_tx_reply_isr(struct fdl_reply PAGED *reply) IN_ISR
 {
     from = reply;
     if (!from->valid) {

@@ -200,9 +200,9 @@ uint8_t fma_ident(uint8_t XDATA *to)
     return ident_len;
 }
 
-uint8_t fma_lsap_status(uint8_t sap, struct fdl_sap XDATA *to)
+uint8_t fma_lsap_status(uint8_t sap, struct fdl_sap PAGED *to)
 {
-    struct fdl_sap XDATA *row;
+    struct fdl_sap PAGED *row;
     uint8_t irq;
 
     if (sap >= FDL_SAP_NUMBERS)
@@ -216,7 +216,7 @@ uint8_t fma_lsap_status(uint8_t sap, struct fdl_sap XDATA *to)
     return FMA_OK;
 }
 
-static struct fdl_sap XDATA new_row;
+static struct fdl_sap PAGED new_row;
 
 static uint8_t activate(uint8_t sap)
 {
@@ -239,7 +239,7 @@ uint8_t fma_sap_activate(uint8_t sap, uint8_t access, uint8_t services, uint8_t 
 }
 
 uint8_t fma_rsap_activate(uint8_t sap, uint8_t access, uint8_t max_len, uint8_t handling,
-                          struct fdl_reply XDATA *reply)
+                          struct fdl_reply PAGED *reply)
 {
     new_row.access = access;
     new_row.services = FDL_SRD;

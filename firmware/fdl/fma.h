@@ -47,14 +47,14 @@ uint8_t fma_read_value(uint8_t variable, uint16_t XDATA *value);
 uint8_t fma_ident(uint8_t XDATA *to);
 
 /* FMA1/2 LSAP Status of a local SAP -> FMA_OK with *to filled, FMA_LS, FMA_IV. */
-uint8_t fma_lsap_status(uint8_t sap, struct fdl_sap XDATA *to);
+uint8_t fma_lsap_status(uint8_t sap, struct fdl_sap PAGED *to);
 
 /* FMA1/2 SAP Activate: a SAP that acknowledges SDA and takes SDN (services = FDL_SDA | FDL_SDN, or one of them).
  * RSAP Activate: a SAP that answers SRD from `reply` (0: with SC). access 0..126 or FDL_ALL; max_len of the request's
  * L_sdu; handling enum fdl_handling. Activating an active SAP changes it. -> FMA_OK, FMA_IV, FMA_LR. */
 uint8_t fma_sap_activate(uint8_t sap, uint8_t access, uint8_t services, uint8_t max_len, uint8_t handling);
 uint8_t fma_rsap_activate(uint8_t sap, uint8_t access, uint8_t max_len, uint8_t handling,
-                          struct fdl_reply XDATA *reply);
+                          struct fdl_reply PAGED *reply);
 
 /* FMA1/2 SAP Deactivate -> FMA_OK, FMA_LS (was not active), FMA_IV. */
 uint8_t fma_sap_deactivate(uint8_t sap);

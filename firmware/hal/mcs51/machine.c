@@ -25,6 +25,7 @@ STATIC_ASSERT(FOSC_HZ >= 6000000ul && FOSC_HZ <= 48000000ul, fosc_fits_the_milli
 void hal_init(void)
 {
     DRIVER_OFF();
+    P2 = 0; /* the page of PAGED: the linker puts it first */
     EA = 0;
     locked = 1;
     TMOD = T1_T0_16_BIT;
