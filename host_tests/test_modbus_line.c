@@ -315,6 +315,28 @@ static void test_a_late_answer_is_not_sent_into_the_next_request(void)
     ask(GOOD, ANSWER);
 }
 
+/* While the application was slow, somebody has begun a long frame whose end looks like a request to us; its
+ * beginning was missed, at whatever octet the application came back. */
+static void test_the_end_of_a_frame_is_not_a_frame(void)
+{
+    static const uint8_t body[] = {0x11, 0x06, 0x00, 0x02, 0x55, 0x55};
+    uint8_t frame[MBC_FRAME_MAX];
+    const unsigned n = mbc_frame(&client.coding, body, sizeof body, 0, frame);
+    for (unsigned before = 80; before < 100; before++) { /* 200 ms are over after 91 octets */
+        fixture_begin(0x11, MB_RTU);
+        fx.spend = 200 * HV_MS;
+        mbc_send(&client, request, sizeof request);
+        for (unsigned i = 0; i < before + n; i++)
+            hv_inject(hv_now() + 150 * HV_MS + i * 11 * hv_bit(), i < before ? 0x77 : frame[i - before], 0);
+        hv_run_for(HV_S);
+        TEST_ASSERT_EQUAL(0, client.heard_n);
+        TEST_ASSERT_EQUAL(1, fx.writes);
+        TEST_ASSERT_EQUAL_HEX16(0, holding_0[2]);
+        fx.spend = 0;
+        ask(GOOD, ANSWER);
+    }
+}
+
 static void test_the_answer_is_sent_as_one_run_and_the_driver_drops_behind_it(void)
 {
     ask(GOOD, ANSWER);
@@ -662,6 +684,7 @@ int main(void)
     RUN_TEST(test_lumps_do_not_cut_a_frame_to_us);
     RUN_TEST(test_an_octet_glued_to_a_request_spoils_only_that_request);
     RUN_TEST(test_a_late_answer_is_not_sent_into_the_next_request);
+    RUN_TEST(test_the_end_of_a_frame_is_not_a_frame);
     RUN_TEST(test_the_answer_is_sent_as_one_run_and_the_driver_drops_behind_it);
     RUN_TEST(test_ascii_a_colon_starts_anew_at_any_time);
     RUN_TEST(test_ascii_what_is_not_spelt_right_is_dropped);

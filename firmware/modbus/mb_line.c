@@ -69,13 +69,12 @@ static uint16_t append_crc(void)
 {
     uint8_t XDATA *at = mb_adu;
     uint_fast8_t left = (uint_fast8_t)(mb_pdu_len + 1u);
-    static HOT uint16_t crc;
-    crc = CRC16_START;
+    mb_rx.crc = CRC16_START;
     do
-        crc = crc16_add(crc, *at++);
+        mb_rx.crc = crc16_add(mb_rx.crc, *at++);
     while (--left);
-    at[0] = (uint8_t)crc;
-    at[1] = (uint8_t)(crc >> 8);
+    at[0] = (uint8_t)mb_rx.crc;
+    at[1] = (uint8_t)(mb_rx.crc >> 8);
     return (uint16_t)(mb_pdu_len + 1u + CRC_LEN);
 }
 
@@ -84,19 +83,19 @@ static bool is_ascii(void)
     return MB_WITH_ASCII && mb_rx.idle == MB_COLON;
 }
 
-/* Our choice: when something is heard after the request, its client has given up and is talking again; it is
- * not talked into. What is heard has lost its start and will not pass as a frame. */
-void mb_line_answer(void)
+/* Our choice: when something was heard after the request, its client has given up and is talking again; it is
+ * not talked into. What comes then has lost its start: in RTU nothing is taken before t3.5 of silence (which,
+ * if nothing was heard, is over). */
+void mb_line_end(bool answered)
 {
-    uint16_t n;
-    uint8_t irq;
-    n = is_ascii() ? mb_ascii_encode() : append_crc();
-    irq = hal_irq_save();
-    if (mb_rx.flaws) {
-        mb_rx.state = mb_idle_state;
-    } else {
+    const uint16_t n = is_ascii() ? mb_ascii_encode() : append_crc();
+    const uint8_t irq = hal_irq_save();
+    if (answered && !mb_rx.flaws) {
         mb_rx.state = MB_SENDING;
         hal_send(mb_adu, n);
+    } else {
+        mb_rx.state = is_ascii() ? MB_COLON : MB_INITIAL;
+        hal_silence(mb_rx.t35);
     }
     hal_irq_restore(irq);
 }

@@ -59,12 +59,7 @@ void mb_bad_frame_isr(uint8_t flaws) IN_ISR;
 /* Spell mb_adu[0..mb_pdu_len] out with LRC, CR and delimiter. -> characters. Main, in MB_READY. */
 uint16_t mb_ascii_encode(void);
 
-/* Send the answer mb_pdu[0..mb_pdu_len-1] from our address / give the frame back without one. Main, in
- * MB_READY. */
-void mb_line_answer(void);
-static inline void mb_line_release(void)
-{
-    mb_rx.state = mb_idle_state;
-}
+/* The request has been dealt with: send the answer mb_pdu[0..mb_pdu_len-1], or none. Main, in MB_READY. */
+void mb_line_end(bool answered);
 
 #endif

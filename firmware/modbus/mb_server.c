@@ -63,8 +63,5 @@ void mb_poll(void)
         mb_pdu[1] = exception;
         mb_pdu_len = 2;
     }
-    if (answered)
-        mb_line_answer();
-    else
-        mb_line_release();
+    mb_line_end(answered);
 }
