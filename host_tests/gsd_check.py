@@ -125,6 +125,7 @@ BROKEN += [
     (r"^DPV1_Slave=0", "User_Prm_Data=1", "User_Prm_Data without User_Prm_Data_Len"),
     (r"^DPV1_Slave=0", "= 5", "not a statement"),
     (r"^DPV1_Slave=0", "Fail_Safe", "Fail_Safe again"),
+    (r"^(Unit_Diag_Bit.*\n)", r'\1Channel_Diag(9)="x"\n', "a maker's own errors are 16 to 31"),
     (r"\Z", "SlotDefinition\nSlot(1)=\"a\" 5 1,2\nEndSlotDefinition\n", "default module 5 is not one of the allowed"),
     (r"\Z", "SlotDefinition\nSlot(1)=\"a\" 1 1-9\nEndSlotDefinition\n", "slot allows module 5, which is not there"),
     (r"EndModule\n\Z", "EndModule \\\\", "the file ends in a continued line"),

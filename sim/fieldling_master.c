@@ -32,6 +32,7 @@ static const char help[] = "fieldling-master: a PROFIBUS-DP master.\n"
                            "  --cycle MS             shortest bus cycle (10)\n"
                            "  --seconds N, --cycles N  end after so long\n"
                            "  --clear                begin in Clear, not in Operate\n"
+                           "  --count                outputs count up by themselves\n"
                            "  --json                 one JSON object a line\n"
                            "  --record FILE          keep what is said, for fieldling-mon\n"
                            "\n"
@@ -50,6 +51,7 @@ enum {
     OPT_SECONDS,
     OPT_CYCLES,
     OPT_CLEAR,
+    OPT_COUNT,
     OPT_JSON,
     OPT_RECORD
 };
@@ -130,6 +132,9 @@ static void take(int option, char *value)
     case OPT_CLEAR:
         o.clear = true;
         break;
+    case OPT_COUNT:
+        o.count = true;
+        break;
     case OPT_JSON:
         o.json = true;
         break;
@@ -157,6 +162,7 @@ static void read_options(int argc, char **argv)
                                             {"seconds", 1, 0, OPT_SECONDS},
                                             {"cycles", 1, 0, OPT_CYCLES},
                                             {"clear", 0, 0, OPT_CLEAR},
+                                            {"count", 0, 0, OPT_COUNT},
                                             {"json", 0, 0, OPT_JSON},
                                             {"record", 1, 0, OPT_RECORD},
                                             {"help", 0, 0, 'h'},

@@ -13,6 +13,7 @@ struct master_options {
     unsigned seconds, cycles; /* 0: until a signal or "quit" */
     unsigned cycle_ms;        /* shortest bus cycle */
     bool clear;               /* start in Clear instead of Operate */
+    bool count;               /* outputs count up, to have something to look at */
 };
 
 /* One class 2 command; words[0] is the verb, words[1..n-1] its arguments. -> exit status. */

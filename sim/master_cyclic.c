@@ -57,6 +57,8 @@ static void set_outputs(struct dp_master *master, struct dp_slave *s)
         memset(s->outputs, 0, sizeof s->outputs);
     else
         memcpy(s->outputs, kept[i], sizeof s->outputs);
+    for (unsigned k = 0; opt->count && !clear && k < s->out_n; k++)
+        s->outputs[k] = (uint8_t)(s->exchanges / 16 + k);
 }
 
 /* ---- commands on standard input ------------------------------------------------------------------------- */
@@ -143,6 +145,7 @@ static void read_commands(void)
     char *end, *at = text;
     while ((end = strchr(at, '\n')) != NULL) {
         *end = '\0';
+        rows += live && rows; /* the terminal echoed it */
         command(at);
         at = end + 1;
     }

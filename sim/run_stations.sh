@@ -49,4 +49,4 @@ while [ "$i" -le "$n" ]; do
 done
 echo "$n stations at 10 to $((n + 9)), one master at 2. To watch: $bin/fieldling-mon $folder/tap"
 # shellcheck disable=SC2086 # a list
-"$bin/fieldling-master" --line "$folder/master" --slot 100 $slaves ${seconds:+--seconds "$seconds"} cyclic
+"$bin/fieldling-master" --line "$folder/master" --slot 100 --count $slaves ${seconds:+--seconds "$seconds"} cyclic
