@@ -64,3 +64,18 @@ run-hdlc: $(addprefix build/posix/,fieldling-hdlc fieldling-hdlc-master fieldlin
 
 SCRIPT_TESTS += host_tests/hdlc_host.py
 host_tests/hdlc_host.py_TIMEOUT = 300
+
+# 31 modules on one line, in virtual time.
+PROGRAMS += fieldling-hdlc-scan
+fieldling-hdlc-scan_SRC      = boards/posix/fieldling_hdlc_scan.c $(REMOTE_MODULE) $(HDLC_SRC) $(HDLC_BUS) sim/hdlc_primary.c \
+                               boards/posix/options.c
+fieldling-hdlc-scan_DEFAULTS = $(HDLC_DEFAULTS)
+
+BENCHES += bench-hdlc
+.PHONY: bench-hdlc
+bench-hdlc: build/posix/fieldling-hdlc-scan
+	@echo "HDLC, one scan of 31 modules at 7200 bit/s against the bits on the line alone:"
+	@build/posix/fieldling-hdlc-scan
+	@build/posix/fieldling-hdlc-scan --preframe
+	@build/posix/fieldling-hdlc-scan --document
+	@build/posix/fieldling-hdlc-scan --document --preframe

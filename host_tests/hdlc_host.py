@@ -286,6 +286,16 @@ def test_the_demonstration():
     assert "online=4 modules=4" in r.stdout, r.stdout
 
 
+def test_31_modules_on_one_line():
+    for arguments in ([], ["--document"]):
+        r = subprocess.run([os.path.join(BIN, "fieldling-hdlc-scan"), *arguments], capture_output=True, text=True,
+                           timeout=18 * PATIENCE, check=False)
+        assert r.returncode == 0, r.stdout
+        said = dict(pair.split("=") for pair in r.stdout.split() if "=" in pair)
+        assert said["modules"] == "31" and said["collisions"] == "0", said
+        assert 1.0 <= float(said["ratio"]) < 1.05, said
+
+
 # ---- tshark ----------------------------------------------------------------------------------------------
 
 UNNUMBERED = {0x03: "UI", 0x07: "RIM", 0x0F: "DM", 0x23: "UP", 0x33: "UP", 0x43: "RD", 0x63: "UA", 0x83: "SNRM",
