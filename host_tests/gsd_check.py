@@ -241,7 +241,7 @@ def test_each_boards_file_has_the_rates_its_clock_can_make():
 
 def test_gsdtool_reads_it():
     if not GSDTOOL.exists():
-        return "gsdtool is not installed (needs cargo)"
+        return "gsdtool could not be installed: no Rust, or see build/cargo/install.log"
     result = run(GSDTOOL, "dump", OURS)
     text = result.stdout.decode()
     assert result.returncode == 0, result.stderr.decode()

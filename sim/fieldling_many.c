@@ -311,6 +311,8 @@ static int bench(void)
             printf(" %17.0f", (per - first) / (sizes[i] - 1) * 1e9);
         printf("\n");
     }
+    printf("(the virtual port included; the station's own instructions are under \"to another station\" of "
+           "bench-dp)\n");
     return judge(false) ? 0 : 1;
 }
 
