@@ -220,7 +220,6 @@ void ddlm_poll(void)
     fma_poll(elapsed);
     ddlm_data_poll();
     fdl_poll();
-    ddlm_diag_poll();
 }
 
 void ddlm_read_info(struct ddlm_info XDATA *to)

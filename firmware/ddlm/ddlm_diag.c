@@ -21,7 +21,6 @@ static uint8_t XDATA pending_rooms[3][FDL_ROOM(FIXED_LEN)];
 
 static uint8_t len;
 static uint8_t flags; /* DDLM_EXT_DIAG, DDLM_STAT_DIAG */
-static bool stale;
 
 void ddlm_diag_init(void)
 {
@@ -67,15 +66,6 @@ static uint8_t status_2(void)
 
 void ddlm_diag_update(void)
 {
-    stale = true;
-    ddlm_diag_poll();
-}
-
-void ddlm_diag_poll(void)
-{
-    if (!stale)
-        return;
-    stale = false;
     diag[0] = status_1();
     diag[1] = status_2();
     diag[3] = ddlm.master;

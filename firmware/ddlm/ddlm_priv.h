@@ -68,7 +68,6 @@ bool ddlm_stored_lock(void);
 extern struct fdl_reply PAGED ddlm_diag_reply;
 void ddlm_diag_init(void);
 void ddlm_diag_update(void);              /* something Slave_Diag shows has changed */
-void ddlm_diag_poll(void);
 void ddlm_diag_read_isr(void) IN_ISR;     /* the master is reading it               */
 
 /* ---- ddlm_data.c: Data_Exchange and Global_Control ---- */
