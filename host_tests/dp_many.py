@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """124 stations on one segment in virtual time: all come up, each exchanges its own data, nobody breaks a rule of the line."""
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -49,6 +50,11 @@ def test_the_bus_cycle_is_what_the_octets_take():
     assert bus(1, 20, RATE_500K)["cycle_ms"] == 0.572
     assert bus(8, 20, RATE_500K)["cycle_ms"] == 4.576
     assert bus(124, 20, RATE_500K)["cycle_ms"] == 70.928
+
+
+def test_two_stations_with_one_address_are_noticed():
+    result = many("twins")
+    assert result.returncode == 1 and int(re.search(r"collisions (\d+)", result.stdout.decode()).group(1)) > 5, result
 
 
 def test_the_analyzer_agrees():

@@ -205,6 +205,12 @@ def test_random_damage_never_breaks_the_checker():
             assert status in (0, 1) and "Traceback" not in output, output
 
 
+def test_pyprofibus_gsdparser_names_the_device():
+    result = run(Path(sys.executable).parent / "gsdparser", "--summary", OURS)
+    assert result.returncode == 0, result.stderr.decode()
+    assert "Fieldling; DP-TEST01; V0.1; Ident 0x1234" in result.stdout.decode(), result.stdout.decode()
+
+
 def test_pyprofibus_reads_parameters_and_configuration():
     from pyprofibus.gsd import GsdInterp
     gsd = GsdInterp.fromFile(str(OURS))

@@ -316,35 +316,56 @@ static int bench(void)
     return judge(false) ? 0 : 1;
 }
 
-int main(int argc, char **argv)
+/* Two stations with the same address: what must be noticed. */
+static int twins(void)
 {
-    const char *image = argc > 1 ? argv[1] : "";
-    const unsigned n = argc > 2 ? (unsigned)strtoul(argv[2], NULL, 10) : 0;
-    const unsigned cycles = argc > 3 ? (unsigned)strtoul(argv[3], NULL, 10) : 20;
-    const unsigned baud = argc > 4 ? (unsigned)strtoul(argv[4], NULL, 10) : 4;
-    const bool as_bench = argc > 2 && strcmp(argv[2], "bench") == 0;
-    if (argc < 3 || (!as_bench && (n < 1 || n > STATIONS || cycles < 1 || baud >= RATES))) {
-        fprintf(stderr,
-                "usage: fieldling-many IMAGE STATIONS [CYCLES [BAUD_RATE_CODE [RECORD]]]   1 to %d stations\n"
-                "       fieldling-many IMAGE bench\n"
-                "IMAGE is fieldling-station.so beside this program; RECORD is written for fieldling-mon.\n",
-                STATIONS);
+    stations[1].address = stations[0].address;
+    begin(2, 4);
+    m.slaves_n = 1;
+    run(10);
+    return judge(true) ? 0 : 1;
+}
+
+/* argv: STATIONS [CYCLES [BAUD_RATE_CODE [RECORD]]]; -> exit status, 2: no such numbers. */
+static int bring_up(int argc, char **argv, const char *image)
+{
+    const unsigned n = (unsigned)strtoul(argv[0], NULL, 10);
+    const unsigned cycles = argc > 1 ? (unsigned)strtoul(argv[1], NULL, 10) : 20;
+    const unsigned baud = argc > 2 ? (unsigned)strtoul(argv[2], NULL, 10) : 4;
+    if (n < 1 || n > STATIONS || cycles < 1 || baud >= RATES)
         return 2;
-    }
-    load_all(image, as_bench ? STATIONS : n);
-    if (as_bench)
-        return bench();
+    load_all(image, n);
     begin(n, (uint8_t)baud);
-    if (argc > 5 && !(record = fopen(argv[5], "w"))) {
-        perror(argv[5]);
-        return 2;
-    }
+    record = argc > 3 ? fopen(argv[3], "w") : NULL;
     if (record)
         fprintf(record, "# rate %llu\n", 576000000ULL / line.bit);
     run(cycles);
-    if (record && fclose(record) != 0) {
-        perror(argv[5]);
+    if (argc > 3 && (!record || fclose(record) != 0)) {
+        perror(argv[3]);
         return 2;
     }
     return judge(true) ? 0 : 1;
+}
+
+int main(int argc, char **argv)
+{
+    int status = 2;
+    if (argc > 2 && strcmp(argv[2], "bench") == 0) {
+        load_all(argv[1], STATIONS);
+        return bench();
+    }
+    if (argc > 2 && strcmp(argv[2], "twins") == 0) {
+        load_all(argv[1], 2);
+        return twins();
+    }
+    if (argc > 2)
+        status = bring_up(argc - 2, argv + 2, argv[1]);
+    if (status == 2)
+        fprintf(stderr,
+                "usage: fieldling-many IMAGE STATIONS [CYCLES [BAUD_RATE_CODE [RECORD]]]   1 to %d stations\n"
+                "       fieldling-many IMAGE bench | twins\n"
+                "IMAGE is fieldling-station.so beside this program; RECORD is written for fieldling-mon.\n"
+                "Exit status 1: not all exchange data, or a rule of the line was broken (as by two twins).\n",
+                STATIONS);
+    return status;
 }
