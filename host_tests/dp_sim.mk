@@ -11,7 +11,7 @@ DP_TEST01_BENCH = $(DP_SRC) boards/common/dp_test01_app.c $(SIM_BUS) \
                   host_tests/dp_fixture.c host_tests/dp_station_test01.c
 
 DP_TESTS = test_dp_frames test_dp_fcb test_dp_prm test_dp_cfg test_dp_data test_dp_diag test_dp_time test_dp_bus \
-           test_dp_errors test_dp_model test_dp_lumps test_dp_user_sap
+           test_dp_errors test_dp_model test_dp_lumps test_dp_user_sap test_dp_loop
 UNIT_TESTS += $(DP_TESTS)
 define dp_test
 $1_SRC = $$(DP_TEST01_BENCH)

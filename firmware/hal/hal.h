@@ -23,7 +23,7 @@
 
 /* Character format. 8E1 is PROFIBUS (EN 50170-2 part 2); the others are Modbus serial line 2.5.1, 2.5.2. */
 enum hal_format { HAL_8E1, HAL_8O1, HAL_8N2, HAL_8N1, HAL_7E1, HAL_7O1, HAL_7N2, HAL_FORMATS };
-#define HAL_LOOP 0x80u /* or'ed in: the transmitter feeds our own receiver, nothing reaches the line */
+#define HAL_LOOP 0x80u /* or'ed in: the transmitter feeds our own receiver; nothing reaches the line or comes from it */
 
 /* What hal_line_open() answers. */
 enum hal_line {

@@ -21,7 +21,7 @@ static const CODE struct phy_rate rates[PHY_BAUDS] = {
 
 HOT volatile struct phy_rx phy_rx;
 
-/* Invariant: at most one of phy_rx.waiting and sending is set. */
+/* Invariant: at most one of phy_rx.waiting and sending is set; but in the loop both may be, when we answer ourselves. */
 static HOT volatile struct {
     uint8_t sending;
     uint8_t transmitter; /* Transmitter_output is enabled */
@@ -96,7 +96,6 @@ void line_silence_isr(void) IN_ISR
     if (phy_rx.waiting) {
         phy_rx.waiting = false;
         line.sending = true;
-        phy_rx.left = 0;
         hal_send(answer, answer_len);
     } else if (!line.sending) {
         phy_syn_ind_isr();

@@ -44,7 +44,8 @@ enum phy_status { PHY_OK, PHY_NO /* this board cannot */, PHY_IV /* no such vari
 void phy_reset(void);
 
 /* PHY_SET_VALUE -> enum phy_status. Setting Baud_rate or Loop re-opens the line: a telegram on its way is lost. A
- * board has one bus and one receiver: redundancy and the alternate source are answered PHY_NO. */
+ * board has one bus and one receiver: redundancy and the alternate source are answered PHY_NO. With Loop enabled the
+ * line is left alone: what phy_answer_isr() sends is what is received. */
 uint8_t phy_set_value(uint8_t variable, uint8_t value);
 
 /* PHY_READ_VALUE: the value of variable (< PHY_VARIABLES), 0xFF where there is none. */

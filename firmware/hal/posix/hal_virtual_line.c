@@ -63,16 +63,33 @@ static void drive(bool on)
         hv_vm.wire.driver(on);
 }
 
+static bool looped(void)
+{
+    return (hv_vm.format & HAL_LOOP) != 0;
+}
+
+static void into_fifo(uint8_t octet, uint8_t err)
+{
+    if (hv_vm.pending >= hv_port.fifo || hv_vm.pending >= HV_FIFO_MAX) {
+        hv_seen.octets_lost++;
+        hv_vm.overrun = true;
+        return;
+    }
+    hv_vm.fifo[hv_vm.pending].octet = octet;
+    hv_vm.fifo[hv_vm.pending].err = (uint8_t)(err | (hv_vm.overrun ? HAL_ERR_OVERRUN : 0));
+    hv_vm.fifo[hv_vm.pending++].end = hv_vm.now;
+    hv_vm.overrun = false;
+}
+
 void hv_transmit(void)
 {
-    const bool loop = (hv_vm.format & HAL_LOOP) != 0;
-    if (loop && hv_vm.sent_n > 0)
-        hv_receive(hv_vm.octets[hv_vm.sent_n - 1], 0);
+    if (looped() && hv_vm.sent_n > 0)
+        into_fifo(hv_vm.octets[hv_vm.sent_n - 1], 0);
     if (hv_vm.sent_n < hv_vm.n) {
         const uint8_t octet = hv_vm.octets[hv_vm.sent_n++];
         const hv_time start = hv_vm.tx_due;
         hv_vm.tx_due = start + hv_vm.char_bits * hv_vm.bit;
-        if (hv_vm.wire.octet && !loop)
+        if (hv_vm.wire.octet && !looped())
             hv_vm.wire.octet(octet, start, hv_vm.tx_due);
         return;
     }
@@ -155,7 +172,7 @@ void hal_send(const uint8_t XDATA *octets, uint16_t n) IN_ISR
     hv_vm.sent_n = 0;
     hv_vm.sending = true;
     hv_vm.tx_due = hv_vm.now + hv_port.send_latency;
-    if (!(hv_vm.format & HAL_LOOP))
+    if (!looped())
         drive(true);
 }
 
@@ -163,17 +180,8 @@ void hal_send(const uint8_t XDATA *octets, uint16_t n) IN_ISR
 
 void hv_receive(uint8_t octet, uint8_t err)
 {
-    if (!hv_vm.on || !hv_vm.bit || hv_vm.driver)
-        return;
-    if (hv_vm.pending >= hv_port.fifo || hv_vm.pending >= HV_FIFO_MAX) {
-        hv_seen.octets_lost++;
-        hv_vm.overrun = true;
-        return;
-    }
-    hv_vm.fifo[hv_vm.pending].octet = octet;
-    hv_vm.fifo[hv_vm.pending].err = (uint8_t)(err | (hv_vm.overrun ? HAL_ERR_OVERRUN : 0));
-    hv_vm.fifo[hv_vm.pending++].end = hv_vm.now;
-    hv_vm.overrun = false;
+    if (hv_vm.on && hv_vm.bit && !hv_vm.driver && !looped())
+        into_fifo(octet, err);
 }
 
 static void receive_event(void *unused, uint32_t value)
