@@ -121,6 +121,25 @@ def test_back_to_back_telegrams_of_a_pty_are_told_apart():
         "0 FDL res. short acknowledge, nobody asked"]
 
 
+def test_a_damaged_telegram_ends_at_a_pause_shorter_than_t_syn():
+    # three octets end after 66 us; E5 comes 25 T_bit = 50 us later
+    lines = mon("-", record="# rate 500000\n1.0 10 02 08\n1.000116 E5\n", status=1)
+    assert [line.split(" ", 2)[2] for line in lines] == ["1 wrong: cut short: 3 of 6 octets",
+                                                          "0 FDL res. short acknowledge, nobody asked"]
+
+
+def test_the_answer_of_another_station_belongs_to_nothing():
+    # 2 asks 3, 5 answers: 02 + 05 + 03 = 0A; then 3 answers master 1: 01 + 03 + 03 = 07
+    record = "1.0 68 05 05 68 03 02 7D 01 02 85 16\n1.001 10 02 05 03 0A 16\n1.002 10 01 03 03 07 16\n"
+    lines = mon("-", record="# rate 500000\n" + record, status=0)
+    assert [line.split(" ", 3)[3] for line in lines[1:]] == ["5 -> 2 FDL res. RS, SAP not activated",
+                                                              "3 -> 1 FDL res. RS, SAP not activated"]
+
+
+def test_the_reserved_bit_of_fc_is_told():
+    assert one("10 08 02 C9 D3 16") == "0 2 -> 8 FDL req. FDL Status, FC bit 7 set"
+
+
 # ---- content --------------------------------------------------------------------------------------------------------
 
 def test_et200s_field_by_field():
@@ -208,6 +227,11 @@ def test_control_commands_and_parameters_in_words():
     octets = bytes((0x68, 12, 12, 0x68)) + body + bytes((sum(body) % 256, 0x16))
     expect(mon("-v", "-", record="1.0 " + octets.hex(" ") + "\n", status=0), "Station_status 40 Unlock_Req",
            "lock unlock for other masters", "watchdog off", "min_T_SDR unchanged")
+    # DPV1_Status_1 84: DP-V1 and the time base of 1 ms
+    body = bytes.fromhex("88 82 5D 3D 3E 88 14 02 0B 12 34 00 84 00 00")
+    octets = bytes((0x68, 15, 15, 0x68)) + body + bytes((sum(body) % 256, 0x16))
+    expect(mon("-v", "-", record="1.0 " + octets.hex(" ") + "\n", status=0), "watchdog 20 x 2 x 1 ms = 40 ms",
+           "DPV1_Status_1 84 DPV1_Enable WD_Base_1ms")
     expect(mon("-v", "-", record="1.0 68 09 09 68 FE 82 5D 37 3E 05 12 34 01 9E 16\n", status=0),
            "New_Slave_Add 5", "Ident_Number 1234H", "No_Add_Chg yes")
 
@@ -232,6 +256,17 @@ def test_a_lost_answer_a_retry_and_a_refusal():
     expect(lines, "000003 00:00:01.002000 0 2 -> 3 DP req. Data Exchange (retry)",
            "000006 00:00:01.003282 0 3 -> 2 FDL res. RS, SAP not activated to Data Exchange",
            "T_SDR 14 T_bit", "T_SDR 11 T_bit", "T_SDR 20 T_bit")
+
+
+def test_what_is_a_retry():
+    """With FCV: the same octets, answered before or not (facts 3.3). Without FCV, a first request: only when unanswered."""
+    answer = "10 02 03 00 05 16"
+    for request, between, retry in (("10 03 02 7D 82 16", answer, True), ("10 03 02 7D 82 16", None, True),
+                                    ("10 03 02 6D 72 16", answer, False), ("10 03 02 6D 72 16", None, True)):
+        telegrams = [request] + [between] * bool(between) + [request]
+        record = "".join(f"1.{i:03} {t}\n" for i, t in enumerate(telegrams))
+        lines = mon("-", record="# rate 500000\n" + record, status=0)
+        assert lines[-1].endswith(" (retry)") == retry, (request, between, lines)
 
 
 def test_the_summary_counts():
