@@ -72,6 +72,7 @@ struct unit_app {
     uint8_t cfg_count;
     uint8_t cfg_len;
     bool adapts;
+    void (*while_adapting)(void);
     uint8_t states; /* indications */
     uint8_t state;
     uint8_t faults;

@@ -18,6 +18,8 @@ bool ddlm_adapt_cfg_ind(const uint8_t XDATA *cfg, uint8_t len)
     (void)cfg;
     app.cfg_count++;
     app.cfg_len = len;
+    if (app.while_adapting)
+        app.while_adapting();
     return app.adapts;
 }
 

@@ -148,6 +148,25 @@ static void another_one_in_data_exchange_begins_anew(void)
     OUTPUTS(DDLM_OUT_NEW, "01 02 03 04 05 06 07 08");
 }
 
+static void an_old_data_exchange_comes(void)
+{
+    request("68 06 06 68 08 02 6D 21 22 23 DD 16");
+    ANSWERED("10 02 08 03 0D 16"); /* RS: facts 3.6 */
+}
+
+static void while_another_one_is_looked_at_no_data_are_exchanged(void)
+{
+    CHK_CFG("51 22");
+    inputs("11 12 13 14");
+    app.while_adapting = an_old_data_exchange_comes;
+    CHK_CFG("11 27");
+    app.while_adapting = 0;
+    TEST_ASSERT_EQUAL(2, app.cfg_count);
+    COUNTED(0, data_exchange);
+    COUNTED(0, wrong_length);
+    STATE(DDLM_WAIT_CFG);
+}
+
 static void the_own_configuration_in_data_exchange_of_another_begins_anew(void)
 {
     CHK_CFG("51 22");
@@ -182,6 +201,7 @@ int main(void)
     RUN_TEST(a_master_may_change_its_mind_before_data_exchange);
     RUN_TEST(the_adapted_configuration_in_data_exchange_changes_nothing);
     RUN_TEST(another_one_in_data_exchange_begins_anew);
+    RUN_TEST(while_another_one_is_looked_at_no_data_are_exchanged);
     RUN_TEST(the_own_configuration_in_data_exchange_of_another_begins_anew);
     RUN_TEST(a_configuration_without_data_is_exchanged_as_sc);
     return UNITY_END();

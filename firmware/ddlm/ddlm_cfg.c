@@ -88,18 +88,20 @@ static bool accept(const uint8_t XDATA *cfg, uint8_t len)
     return true;
 }
 
-/* In DATA_EXCH the configuration is only checked again; a different one that the application adapts to begins anew. */
+/* In DATA_EXCH the configuration is only checked again; a different one that the application adapts to begins anew. Data
+ * exchange ends before that: Data_Exchange is checked against the lengths that are about to change. */
 void ddlm_chk_cfg_ind(const struct fdl_ind XDATA *ind)
 {
     bool running = ddlm.state == DDLM_DATA_EXCH;
-    bool unchanged = running && is_real(ind->lsdu, ind->len);
 
     if (ddlm.master != ind->sa || (ddlm.state != DDLM_WAIT_CFG && !running)) {
         ddlm_counters.not_processed++;
-    } else if (unchanged) {
         return;
-    } else if (accept(ind->lsdu, ind->len)) {
-        ddlm_leave();
+    }
+    if (running && is_real(ind->lsdu, ind->len))
+        return;
+    ddlm_leave();
+    if (accept(ind->lsdu, ind->len)) {
         ddlm_set_state(DDLM_WAIT_CFG);
         ddlm.cfg_ok = true;
         ddlm_data_start();
