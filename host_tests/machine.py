@@ -38,9 +38,13 @@ class Machine(Station):
         self.redirected = []
         self.events = f"{self.folder}/events"
         self._start(qemu(self.flash, "stdio,id=console,signal=off", "pty,id=line", trace, self.events))
-        self.wait(lambda: self.redirected, "the line")
-        self.pty = self.redirected[0]
-        self.wait(self._console_answers, "the console")
+        try:
+            self.wait(lambda: self.redirected, "the line")
+            self.pty = self.redirected[0]
+            self.wait(self._console_answers, "the console")
+        except BaseException:
+            self.__exit__()
+            raise
 
     def _read(self):
         for line in self.process.stdout:

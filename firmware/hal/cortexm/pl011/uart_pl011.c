@@ -60,10 +60,10 @@ static void program(uint32_t uart, uint32_t divisor, uint8_t lcrh, uint32_t cont
     REG(uart + UART_IBRD) = divisor >> 6;
     REG(uart + UART_FBRD) = divisor & 63u;
     REG(uart + UART_LCRH) = lcrh;
-    while (!(REG(uart + UART_FR) & FR_RXFE)) /* what came before would hold back the first interrupt */
-        (void)REG(uart + UART_DR);
-    REG(uart + UART_ICR) = 0x7FF;
     REG(uart + UART_CR) = control;
+    REG(uart + UART_ICR) = 0x7FF;
+    while (!(REG(uart + UART_FR) & FR_RXFE)) /* last: an octet left behind would hold back every interrupt to come */
+        (void)REG(uart + UART_DR);
 }
 
 bool uart_open(uint32_t bit_per_s, uint8_t format)
