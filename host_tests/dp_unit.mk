@@ -7,7 +7,7 @@ DP_UNIT_TESTS   := test_bytes test_phy_uart test_fdl_rx test_fdl_tx test_ddlm_id
 UNIT_TESTS += $(DP_UNIT_TESTS)
 
 UNIT_PHY  := host_tests/fake_hal.c firmware/phy_uart/phy_uart.c
-UNIT_FDL  := $(UNIT_PHY) $(addprefix firmware/fdl/,fdl.c fdl_rx.c fdl_tx.c fdl_sap.c fma.c)
+UNIT_FDL  := $(UNIT_PHY) $(addprefix firmware/fdl/,fdl.c fdl_rx.c fdl_tx.c fdl_sap.c fma.c fma_watch.c)
 UNIT_DDLM := $(UNIT_FDL) host_tests/ddlm_unit.c \
     $(addprefix firmware/ddlm/ddlm,.c _addr.c _cfg.c _data.c _diag.c _identifiers.c _prm.c _wd.c)
 

@@ -2,10 +2,10 @@
 include firmware/hal/mcs51/image.mk
 
 87c51fb_CONFIG := dp_test01.h
-87c51fb_CODE   := 0x6000
+87c51fb_CODE   := 0x4000
 87c51fb_XRAM   := 0x7FE0
 87c51fb_HAL    := $(addprefix firmware/hal/mcs51/,machine.c serial.c silence.c held.c nv_ram.c con_none.c)
 
-87c51fb/fieldling-dp_SRC      := boards/87c51fb/main.c $(87c51fb_HAL) firmware/hal/mcs51/chunk.c $(DP_STATION)
+87c51fb/fieldling-dp_SRC      := boards/87c51fb/main.c $(87c51fb_HAL) firmware/hal/mcs51/chunk.c $(filter-out %/fma_watch.c,$(DP_STATION)) boards/common/no_fma_watch.c
 87c51fb/fieldling-dp_DEFAULTS := $(DP_DEFAULTS)
 $(eval $(call mcs51_image,87c51fb,fieldling-dp))

@@ -177,7 +177,7 @@ void ddlm_set_min_tsdr(uint8_t tbit)
 uint8_t ddlm_slave_init(uint8_t switches, uint8_t baud)
 {
     static uint8_t XDATA ident[64];
-    static const CODE struct ddlm_counters none = {0}; /* "= {0}": SDCC leaves it to the EPROM otherwise */
+    uint8_t i;
     uint8_t status;
 
     if (switches > FDL_UNADDRESSED || (baud != DDLM_BAUD_AUTO && baud >= PHY_BAUDS)) {
@@ -190,7 +190,8 @@ uint8_t ddlm_slave_init(uint8_t switches, uint8_t baud)
     ddlm.state = DDLM_POWER_ON;
     ddlm.faults = 0;
     forget_master();
-    ddlm_counters = none;
+    for (i = 0; i < sizeof ddlm_counters; i++)
+        ((uint8_t XDATA *)&ddlm_counters)[i] = 0;
     ddlm_check_fma(fma_reset(ddlm.address));
     fdl_set_ident(ident, fma_ident(ident));
     ddlm_cfg_init();

@@ -12,43 +12,38 @@
 #include "ddlm/ddlm_priv.h"
 #include "phy_uart/phy_uart.h"
 
-static const CODE uint8_t search_order[] = {
-    PHY_BAUD_12M,   PHY_BAUD_6M,    PHY_BAUD_3M,    PHY_BAUD_1M5,  PHY_BAUD_500K,
-    PHY_BAUD_187K5, PHY_BAUD_93K75, PHY_BAUD_45K45, PHY_BAUD_19K2, PHY_BAUD_9K6,
-};
-
 /* Time at one rate [ms]: two of the longest telegrams with their T_SYN and T_SDR, about 8000 T_bit, and at least
  * 100 ms for a master that polls slowly (our choice). */
-#define SEARCH_TBIT_MS 8000000ul
-#define SEARCH_MIN_MS  100u
+#define SEARCH_MS(bit_per_s) ((bit_per_s) < 80000ul ? 8000000ul / (bit_per_s) : 100u)
+
+static const CODE struct {
+    uint8_t baud;
+    uint16_t ms;
+} search[] = {
+    {PHY_BAUD_12M, SEARCH_MS(12000000ul)},  {PHY_BAUD_6M, SEARCH_MS(6000000ul)},
+    {PHY_BAUD_3M, SEARCH_MS(3000000ul)},    {PHY_BAUD_1M5, SEARCH_MS(1500000ul)},
+    {PHY_BAUD_500K, SEARCH_MS(500000ul)},   {PHY_BAUD_187K5, SEARCH_MS(187500ul)},
+    {PHY_BAUD_93K75, SEARCH_MS(93750ul)},   {PHY_BAUD_45K45, SEARCH_MS(45450ul)},
+    {PHY_BAUD_19K2, SEARCH_MS(19200ul)},    {PHY_BAUD_9K6, SEARCH_MS(9600ul)},
+};
+#define RATES (sizeof search / sizeof search[0])
 
 #define BAUD_CONTROL_MS (2ul * 10u * DDLM_WD_BAUD_CONTROL_VAL)
 
 static uint8_t state;
 static bool fixed;         /* the rate was given: no search */
-static uint8_t at;         /* in search_order               */
+static uint8_t at;         /* in search[]                   */
 static uint32_t quiet_ms;  /* since the clock was restarted */
 static uint32_t t_wd_ms;   /* 0 = off                       */
-static uint32_t t_search_ms;
-
-static bool try_rate(uint8_t baud)
-{
-    if (fma_set_value(FMA_BAUD_RATE, baud) != FMA_OK)
-        return false;
-    t_search_ms = SEARCH_TBIT_MS / phy_bit_per_s(baud);
-    if (t_search_ms < SEARCH_MIN_MS)
-        t_search_ms = SEARCH_MIN_MS;
-    return true;
-}
 
 /* The next rate this board can do; one round at most, so a board that can do none does not hang here. */
 static void next_rate(void)
 {
-    uint8_t tries = sizeof search_order;
+    uint8_t tries = RATES;
 
     do {
-        at = at + 1u < sizeof search_order ? (uint8_t)(at + 1u) : 0u;
-    } while (!try_rate(search_order[at]) && --tries);
+        at = at + 1u < RATES ? (uint8_t)(at + 1u) : 0u;
+    } while (fma_set_value(FMA_BAUD_RATE, search[at].baud) != FMA_OK && --tries);
 }
 
 static void enter(uint8_t to)
@@ -61,7 +56,7 @@ static void enter(uint8_t to)
 static void start_search(void)
 {
     enter(DDLM_BAUD_SEARCH);
-    at = sizeof search_order - 1u;
+    at = RATES - 1u;
     next_rate();
 }
 
@@ -73,13 +68,15 @@ void ddlm_wd_init(uint8_t baud)
         start_search();
         return;
     }
-    try_rate(baud);
+    fma_set_value(FMA_BAUD_RATE, baud);
     enter(DDLM_BAUD_CONTROL);
 }
 
 void ddlm_wd_set(uint8_t fact_1, uint8_t fact_2)
 {
-    t_wd_ms = (uint32_t)fact_1 * fact_2 * 10u;
+    t_wd_ms = 0;
+    for (; fact_2; fact_2--)
+        t_wd_ms += (uint16_t)(fact_1 * 10u); /* a product of 32 bits costs an 8-bit part 100 octets of code */
     enter(DDLM_DP_CONTROL);
 }
 
@@ -107,7 +104,7 @@ static void st_baud_search(bool heard)
 {
     if (heard)
         enter(DDLM_BAUD_CONTROL);
-    else if (quiet_ms >= t_search_ms) {
+    else if (quiet_ms >= search[at].ms) {
         quiet_ms = 0;
         next_rate();
     }

@@ -401,11 +401,11 @@ void fdl_set_address(uint8_t ts)
 
 void fdl_reset(uint8_t ts)
 {
-    static const CODE struct fdl_counters none = {0}; /* "= {0}": SDCC leaves it to the EPROM otherwise */
     uint8_t irq = hal_irq_save();
     uint8_t i;
 
-    fdl_counters = none;
+    for (i = 0; i < sizeof fdl_counters; i++) /* SDCC's struct assignment and memset() are a library of their own */
+        ((uint8_t XDATA *)&fdl_counters)[i] = 0;
     in_stock = 0;
     for (i = 1; i < BUFFERS; i++)
         stock[in_stock++] = memory[i];

@@ -67,6 +67,13 @@ void fdl_sap_reset(void);
 struct fdl_reply PAGED *fdl_ident_reply_isr(void) IN_ISR;
 struct fdl_reply PAGED *fdl_lsap_reply_isr(void) IN_ISR;
 
+/* ---- fma_watch: supervision of the bus, main ---- */
+
+void fma_watch_reset(void);
+void fma_watch_t_sl(uint16_t t_sl);                     /* slot time or rate has changed              */
+void fma_watch_cleared(const uint16_t XDATA *count);    /* sd_count or sd_error_count has been cleared */
+uint16_t fma_count(const uint16_t XDATA *count);        /* of fma.c: the count, read with interrupts masked */
+
 extern HOT uint8_t fdl_ts; /* this station's address */
 
 #endif

@@ -60,6 +60,7 @@ static uint8_t find_row(uint8_t sap)
 
 bool fdl_sap_set(uint8_t sap, const struct fdl_sap PAGED *how)
 {
+    struct fdl_sap PAGED *at;
     uint8_t row;
     uint8_t irq;
 
@@ -69,7 +70,12 @@ bool fdl_sap_set(uint8_t sap, const struct fdl_sap PAGED *how)
     if (row == NO_ROW)
         return false;
     irq = hal_irq_save();
-    rows[row] = *how;
+    at = &rows[row];
+    at->access = how->access;
+    at->services = how->services;
+    at->max_len = how->max_len;
+    at->handling = how->handling;
+    at->reply = how->reply;
     owner_of[row] = sap;
     row_of[sap] = row;
     hal_irq_restore(irq);
@@ -170,32 +176,40 @@ struct fdl_reply PAGED *fdl_ident_reply_isr(void) IN_ISR
 #define TYPE_SRD  3u
 #define TYPE_CSRD 5u
 
-static uint8_t role_isr(bool active) IN_ISR
+static HOT uint8_t offered; /* services of the SAP asked about */
+
+/* Built where the answer will stand: lsap is never updated, so it is always its first room that is sent. */
+static void lsap_put_isr(uint8_t octet) IN_ISR
 {
-    return active ? ROLE_RESPONDER : ROLE_NONE;
+    uint8_t XDATA *room = lsap_rooms[0];
+
+    room[FDL_ROOM_HEAD + room[0]] = octet;
+    room[0]++;
+    room[1] = (uint8_t)(room[1] + octet);
+}
+
+static void lsap_put_role_isr(uint8_t service) IN_ISR
+{
+    uint8_t type = service == FDL_SDA ? TYPE_SDA : service == FDL_SDN ? TYPE_SDN : TYPE_SRD;
+
+    lsap_put_isr(type | (offered & service ? ROLE_RESPONDER : ROLE_NONE));
 }
 
 struct fdl_reply PAGED *fdl_lsap_reply_isr(void) IN_ISR
 {
     struct fdl_sap PAGED *row = fdl_sap_row_isr(fdl_req.dsap);
-    uint8_t XDATA *data = lsap.sent + FDL_ROOM_HEAD;
-    uint8_t sum = 0;
-    bool srd;
-    uint8_t i;
 
     if (!row)
         return 0;
-    srd = (row->services & FDL_SRD) != 0;
-    data[0] = row->access;
-    data[1] = 0;
-    data[2] = TYPE_SDA | role_isr((row->services & FDL_SDA) != 0);
-    data[3] = TYPE_SDN | role_isr((row->services & FDL_SDN) != 0);
-    data[4] = TYPE_SRD | role_isr(srd);
-    data[5] = TYPE_CSRD | role_isr(srd);
-    for (i = 0; i < LSAP_LEN; i++)
-        sum = (uint8_t)(sum + data[i]);
-    lsap.sent[0] = LSAP_LEN;
-    lsap.sent[1] = sum;
+    offered = row->services;
+    lsap_rooms[0][0] = 0;
+    lsap_rooms[0][1] = 0;
+    lsap_put_isr(row->access);
+    lsap_put_isr(0);
+    lsap_put_role_isr(FDL_SDA);
+    lsap_put_role_isr(FDL_SDN);
+    lsap_put_role_isr(FDL_SRD);
+    lsap_put_isr(TYPE_CSRD | (offered & FDL_SRD ? ROLE_RESPONDER : ROLE_NONE));
     lsap.valid = true;
     return &lsap;
 }

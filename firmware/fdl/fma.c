@@ -10,25 +10,7 @@
 #define T_SDR_MIN_TBIT    11u
 #define T_SDR_MAX_TBIT    255u
 
-/* Time_out: T_TO = 6 T_SL + 2 n T_SL with n = 130 for a slave (EN 50170-2 part 4, 4.1.7); our choice: never less than
- * 100 ms, so that the event means "no master" and not "the master's computer was busy". */
-#define T_TO_SLOTS_MS (uint32_t)133000 /* 266 slots, in ms at 2 bit/s; long: SDCC folds in 16 bits */
-#define T_TO_MIN_MS   100u
-
 static uint16_t t_sl;
-static uint16_t quiet_ms;
-static uint16_t t_to_ms;
-static uint16_t seen_sd;
-static uint16_t seen_errors;
-static bool timed_out;
-
-static void set_t_to(void)
-{
-    uint32_t half_rate = phy_bit_per_s(phy_read_value(PHY_BAUD_RATE)) / 2u; /* so that the product has 32 bits */
-    uint32_t ms = half_rate ? T_TO_SLOTS_MS * t_sl / half_rate : 0;
-
-    t_to_ms = ms < T_TO_MIN_MS ? T_TO_MIN_MS : ms > 60000u ? 60000u : (uint16_t)ms;
-}
 
 uint8_t fma_reset(uint8_t ts)
 {
@@ -37,11 +19,8 @@ uint8_t fma_reset(uint8_t ts)
     phy_reset();
     fdl_reset(ts);
     t_sl = T_SL_DEFAULT_TBIT;
-    quiet_ms = 0;
-    seen_sd = 0;
-    seen_errors = 0;
-    timed_out = false;
-    set_t_to();
+    fma_watch_reset();
+    fma_watch_t_sl(t_sl);
     return FMA_OK;
 }
 
@@ -70,7 +49,7 @@ static uint8_t set_phy(uint8_t variable, uint16_t value)
         return FMA_IV;
     switch (phy_set_value(variable, (uint8_t)value)) {
     case PHY_OK:
-        set_t_to();
+        fma_watch_t_sl(t_sl);
         return FMA_OK;
     case PHY_NO:
         return FMA_NO;
@@ -84,7 +63,7 @@ static uint8_t set_t_sl(uint16_t value)
     if (value < T_SL_MIN_TBIT || value > T_SL_MAX_TBIT)
         return FMA_IV;
     t_sl = value;
-    set_t_to();
+    fma_watch_t_sl(t_sl);
     return FMA_OK;
 }
 
@@ -96,8 +75,7 @@ static uint8_t set_min_t_sdr(uint16_t value)
     return FMA_OK;
 }
 
-/* seen: what fma_poll() compares the count with. */
-static uint8_t clear_count(uint16_t XDATA *count, uint16_t *seen, uint16_t value)
+static uint8_t clear_count(uint16_t XDATA *count, uint16_t value)
 {
     uint8_t irq;
 
@@ -106,7 +84,7 @@ static uint8_t clear_count(uint16_t XDATA *count, uint16_t *seen, uint16_t value
     irq = hal_irq_save();
     *count = 0;
     hal_irq_restore(irq);
-    *seen = 0;
+    fma_watch_cleared(count);
     return FMA_OK;
 }
 
@@ -125,15 +103,15 @@ uint8_t fma_set_value(uint8_t variable, uint16_t value)
     case FMA_MIN_T_SDR:
         return set_min_t_sdr(value);
     case FMA_SD_COUNT:
-        return clear_count(&fdl_counters.sd_count, &seen_sd, value);
+        return clear_count(&fdl_counters.sd_count, value);
     case FMA_SD_ERROR_COUNT:
-        return clear_count(&fdl_counters.sd_error_count, &seen_errors, value);
+        return clear_count(&fdl_counters.sd_error_count, value);
     default:
         return FMA_IV;
     }
 }
 
-static uint16_t read_count(const uint16_t XDATA *count)
+uint16_t fma_count(const uint16_t XDATA *count)
 {
     uint8_t irq = hal_irq_save();
     uint16_t value = *count;
@@ -159,10 +137,10 @@ uint8_t fma_read_value(uint8_t variable, uint16_t XDATA *value)
         *value = phy_min_t_sdr();
         return FMA_OK;
     case FMA_SD_COUNT:
-        *value = read_count(&fdl_counters.sd_count);
+        *value = fma_count(&fdl_counters.sd_count);
         return FMA_OK;
     case FMA_SD_ERROR_COUNT:
-        *value = read_count(&fdl_counters.sd_error_count);
+        *value = fma_count(&fdl_counters.sd_error_count);
         return FMA_OK;
     default:
         return FMA_IV;
@@ -260,25 +238,4 @@ void phy_event_ind(uint8_t variable, uint8_t value)
 {
     (void)value;
     fma_event_ind(FMA_EVENT_PHY, variable);
-}
-
-/* One event when the bus falls silent, one a poll while only rubbish is heard. */
-void fma_poll(uint16_t elapsed_ms)
-{
-    uint16_t sd = read_count(&fdl_counters.sd_count);
-    uint16_t errors = read_count(&fdl_counters.sd_error_count);
-
-    if (sd != seen_sd) {
-        quiet_ms = 0;
-        timed_out = false;
-    } else if (quiet_ms < t_to_ms) {
-        quiet_ms = (uint16_t)(quiet_ms + (elapsed_ms < 1000u ? elapsed_ms : 1000u));
-    } else if (!timed_out) {
-        timed_out = true;
-        fma_event_ind(FMA_EVENT_TIME_OUT, 0);
-    }
-    if (sd == seen_sd && errors != seen_errors)
-        fma_event_ind(FMA_EVENT_NOT_SYN, (uint8_t)errors);
-    seen_sd = sd;
-    seen_errors = errors;
 }

@@ -10,13 +10,18 @@
 struct phy_rate {
     uint32_t bit_per_s;
     uint16_t max_t_sdr; /* T_bit */
+    uint16_t gap;       /* T_bit, on an untimed line */
 };
 
+/* clang-format off */
+#define RATE(bit_per_s, max_t_sdr) \
+    {bit_per_s, max_t_sdr, (bit_per_s) / UNTIMED_GAPS_PER_S > PHY_T_SYN_TBIT ? (bit_per_s) / UNTIMED_GAPS_PER_S : PHY_T_SYN_TBIT}
+/* clang-format on */
 static const CODE struct phy_rate rates[PHY_BAUDS] = {
-    [PHY_BAUD_9K6] = {9600u, 60u},     [PHY_BAUD_19K2] = {19200u, 60u},   [PHY_BAUD_93K75] = {93750u, 60u},
-    [PHY_BAUD_187K5] = {187500u, 60u}, [PHY_BAUD_500K] = {500000u, 100u}, [PHY_BAUD_38K4] = {38400u, 60u},
-    [PHY_BAUD_1M5] = {1500000u, 150u}, [PHY_BAUD_45K45] = {45450u, 60u},  [PHY_BAUD_3M] = {3000000u, 250u},
-    [PHY_BAUD_6M] = {6000000u, 450u},  [PHY_BAUD_12M] = {12000000u, 800u},
+    [PHY_BAUD_9K6] = RATE(9600ul, 60u),     [PHY_BAUD_19K2] = RATE(19200ul, 60u),   [PHY_BAUD_93K75] = RATE(93750ul, 60u),
+    [PHY_BAUD_187K5] = RATE(187500ul, 60u), [PHY_BAUD_500K] = RATE(500000ul, 100u), [PHY_BAUD_38K4] = RATE(38400ul, 60u),
+    [PHY_BAUD_1M5] = RATE(1500000ul, 150u), [PHY_BAUD_45K45] = RATE(45450ul, 60u),  [PHY_BAUD_3M] = RATE(3000000ul, 250u),
+    [PHY_BAUD_6M] = RATE(6000000ul, 450u),  [PHY_BAUD_12M] = RATE(12000000ul, 800u),
 };
 
 HOT volatile struct phy_rx phy_rx;
@@ -126,15 +131,6 @@ static void set_times(void)
     hal_irq_restore(irq);
 }
 
-static uint16_t gap_tbit(uint32_t bit_per_s)
-{
-    uint32_t n = phy_rx.untimed ? bit_per_s / UNTIMED_GAPS_PER_S : 0;
-
-    if (n < PHY_T_SYN_TBIT)
-        return PHY_T_SYN_TBIT;
-    return n < 0xFFFFu ? (uint16_t)n : 0xFFFFu;
-}
-
 /* Open the line at the rate and loop in value_of[]; PHY_NO leaves it as it was. */
 static uint8_t open_line(uint8_t baud, uint8_t loop)
 {
@@ -151,7 +147,7 @@ static uint8_t open_line(uint8_t baud, uint8_t loop)
         phy_rx.waiting = false;
         line.sending = false;
         phy_rx.left = 0;
-        t_syn_tbit = gap_tbit(phy_bit_per_s(baud));
+        t_syn_tbit = phy_rx.untimed ? rates[baud].gap : PHY_T_SYN_TBIT;
         set_times();
         hal_silence(t_syn);
     }

@@ -10,18 +10,17 @@
 MCS51_CC = sdcc -mmcs51 --std-c11 --model-large --nooverlay --opt-code-size --Werror
 MCS51_INCLUDES = -Ifirmware -Ifirmware/hal/mcs51 -I. -Iboards/common
 
+# C to assembly (build/BOARD/NAME.c/), functions nobody calls left out (build/BOARD/NAME/), then assembled and linked.
 ifndef mcs51_image
 define mcs51_image # BOARD NAME
-build/$1/$2/%.rel: %.c $$(wildcard firmware/*.h firmware/*/*.h firmware/hal/mcs51/*.h boards/common/*.h boards/$1/*.h) \
-                   firmware/hal/mcs51/image.mk boards/$1/board.mk
+build/$1/$2.c/%.asm: %.c $$(wildcard firmware/*.h firmware/*/*.h firmware/hal/mcs51/*.h boards/common/*.h boards/$1/*.h) \
+                     firmware/hal/mcs51/image.mk boards/$1/board.mk
 	@mkdir -p $$(@D)
 	$$(call say,SDCC,$$@)out=$$$$($$(MCS51_CC) $$(MCS51_INCLUDES) -Iboards/$1 $$($1_CFLAGS) \
-	    -DFIELDLING_CONFIG='"$$($1_CONFIG)"' -c $$< -o $$@ 2>&1) && test -z "$$$$out" || { echo "$$$$out"; rm -f $$@; exit 1; }
-build/$1/$2.lib: $$(patsubst %.c,build/$1/$2/%.rel,$$($1/$2_DEFAULTS))
-	$$(call say,SDAR,$$@)rm -f $$@ && sdar -rc $$@ $$^
-build/$1/$2.ihx: $$(patsubst %.c,build/$1/$2/%.rel,$$($1/$2_SRC)) build/$1/$2.lib
-	$$(call say,SDLD,$$@)out=$$$$($$(MCS51_CC) --code-size $$($1_CODE) --xram-size $$($1_XRAM) --iram-size 256 \
-	    $$^ -o $$@ 2>&1) && test -z "$$$$out" || { echo "$$$$out"; rm -f $$@; exit 1; }
+	    -DFIELDLING_CONFIG='"$$($1_CONFIG)"' -S $$< -o $$@ 2>&1) && test -z "$$$$out" || { echo "$$$$out"; rm -f $$@; exit 1; }
+build/$1/$2.ihx: $$(patsubst %.c,build/$1/$2.c/%.asm,$$($1/$2_SRC) $$($1/$2_DEFAULTS)) firmware/hal/mcs51/strip_unused.py
+	$$(call say,LINK51,$$@)sh firmware/hal/mcs51/link.sh build/$1/$2 "$$($1/$2_SRC)" "$$($1/$2_DEFAULTS)" \
+	    $$(MCS51_CC) --code-size $$($1_CODE) --xram-size $$($1_XRAM) --iram-size 256
 build/$1/$2.bin: build/$1/$2.ihx
 	$$(call say,BIN,$$@)makebin -p $$< $$@
 BOARD_IMAGES += build/$1/$2.ihx build/$1/$2.bin

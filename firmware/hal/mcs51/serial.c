@@ -32,8 +32,8 @@ static volatile __bit odd;    /* it is odd                            */
 static volatile __bit seven;  /* seven data bits: the eighth is added */
 static const uint8_t XDATA *HOT tx_at;
 static HOT uint16_t tx_left;
-static IDATA uint16_t bit_cycles;
-static uint16_t baud_n;
+static IDATA uint16_t bit_cycles; /* a bit lasts bit_cycles + bit_thirds / 3 machine cycles */
+static uint8_t bit_thirds;
 
 /* ---- receive ---------------------------------------------------------------------------------------------------------------- */
 
@@ -213,19 +213,35 @@ void send_end_isr(void) __using(2)
 
 /* ---- open ------------------------------------------------------------------------------------------------------------------- */
 
-/* N of Timer 2 for the rate, 0 where the error is too large. */
+/* N of Timer 2 for the rate, 0 where the error is too large. By additions: a division would cost 350 octets of code. */
+#define RATE_AT_1 (FOSC_HZ / 32u)
+#define TOLERANCE (RATE_AT_1 / 100u * MAX_ERROR_PERCENT)
 static uint16_t divisor(uint32_t bit_per_s)
 {
-    uint32_t rate_1 = FOSC_HZ / 32u; /* at N = 1 */
-    uint32_t n = (rate_1 + bit_per_s / 2u) / bit_per_s;
-    uint32_t is;
+    uint32_t sum = 0; /* n * bit_per_s */
+    uint16_t n = 0;
 
-    if (n == 0 || n > 0xFFFFu)
-        return 0;
-    is = n * bit_per_s;
-    if (is > rate_1 + rate_1 / 100u * MAX_ERROR_PERCENT || is < rate_1 - rate_1 / 100u * MAX_ERROR_PERCENT)
-        return 0;
-    return (uint16_t)n;
+    while (sum < RATE_AT_1 - TOLERANCE) {
+        sum += bit_per_s;
+        if (++n == 0)
+            return 0;
+    }
+    return sum <= RATE_AT_1 + TOLERANCE ? n : 0;
+}
+
+/* 8 N / 3 machine cycles */
+static void set_bit_time(uint16_t n)
+{
+    bit_cycles = 0;
+    bit_thirds = 0;
+    for (; n; n--) {
+        bit_cycles = (uint16_t)(bit_cycles + 2u);
+        bit_thirds = (uint8_t)(bit_thirds + 2u);
+        if (bit_thirds >= 3) {
+            bit_thirds = (uint8_t)(bit_thirds - 3u);
+            bit_cycles++;
+        }
+    }
 }
 
 static void set_format(uint8_t format)
@@ -256,8 +272,7 @@ uint8_t hal_line_open(uint32_t bit_per_s, uint8_t format)
     deaf = 0;
     eager = 0;
     held_drop_isr();
-    baud_n = n;
-    bit_cycles = hal_tbit(1);
+    set_bit_time(n);
     octet_cycles = hal_tbit(11);
     burst = octet_cycles < BURST_OCTET_CYCLES;
     set_format(format);
@@ -275,10 +290,20 @@ uint8_t hal_line_open(uint32_t bit_per_s, uint8_t format)
     return HAL_LINE_TIMED;
 }
 
-/* A bit lasts 8 N / 3 machine cycles. */
 hal_dur_t hal_tbit(uint16_t n)
 {
-    uint32_t cycles = ((uint32_t)n * baud_n * 8u + 2u) / 3u;
+    uint16_t cycles = 0;
+    uint8_t thirds = 0;
 
-    return cycles > 0xFFFFu ? 0xFFFFu : (hal_dur_t)cycles;
+    for (; n; n--) {
+        cycles = (uint16_t)(cycles + bit_cycles);
+        thirds = (uint8_t)(thirds + bit_thirds);
+        if (thirds >= 3) {
+            thirds = (uint8_t)(thirds - 3u);
+            cycles++;
+        }
+        if (cycles < bit_cycles)
+            return 0xFFFFu;
+    }
+    return thirds && cycles != 0xFFFFu ? (hal_dur_t)(cycles + 1u) : cycles;
 }

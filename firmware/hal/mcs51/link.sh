@@ -1,0 +1,24 @@
+#!/bin/sh
+# One image for an 8052 core: link.sh IMAGE "SOURCES" "DEFAULTS" COMPILER OPTION...
+# IMAGE.c/ holds what the compiler made of the sources; IMAGE/ gets the same without the functions nobody calls.
+# Defaults go into a library, so that a function of the same name in the sources takes their place.
+set -e
+image=$1
+sources=$(for c in $2; do echo "$image/${c%.c}"; done)
+defaults=$(for c in $3; do echo "$image/${c%.c}"; done)
+shift 3
+rm -rf "$image"
+cp -r "$image.c" "$image"
+python3 firmware/hal/mcs51/strip_unused.py $(for f in $sources; do echo "$f.asm"; done) >"$image.stripped"
+for f in $sources $defaults; do
+    sdas8051 -plosgff "$f.rel" "$f.asm"
+done
+rm -f "$image.lib"
+sdar -rc "$image.lib" $(for f in $defaults; do echo "$f.rel"; done)
+out=$("$@" $(for f in $sources; do echo "$f.rel"; done) "$image.lib" -o "$image.ihx" 2>&1) || true
+# Anything the linker prints is a failure.
+if [ -n "$out" ]; then
+    echo "$out"
+    rm -f "$image.ihx"
+    exit 1
+fi
