@@ -101,6 +101,9 @@ def test_trace_shows_each_telegram_layer_by_layer():
         Exchange(master)(1, 2)
         master.no_answer("68 05 05 68 09 02 7D 01 02 8B 16")  # for station 9
         master.no_answer("DC 02 02")
+        # Ident
+        master.ask("10 08 02 4E 58 16", "68 21 21 68 02 08 08 09 09 04 04 46 69 65 6C 64 6C 69 6E 67 44 50 2D 54 45 53 54 "
+                   "30 31 56 31 2E 30 56 30 2E 31 E6 16")
         master.no_answer("10 08 02 49 54 16")  # wrong FCS
         station.wait(lambda: any("fdl=invalid" in line for line in station.traces), "the trace")
         expect("off", station.ask("trace off"), {"trace": "off"})
@@ -125,6 +128,7 @@ def test_trace_shows_each_telegram_layer_by_layer():
             "trace=rx phy=6805056809027D01028B16 fdl=SRD_HIGH da=9 sa=2 fcb=1 fcv=1 len=2 ddlm=Data_Exchange.req "
             "state=DATA_EXCH",
             "trace=rx phy=DC0202 fdl=TOKEN da=2 sa=2 ddlm=none state=DATA_EXCH",
+            "fdl=DL da=2 sa=8 len=30 ddlm=none state=DATA_EXCH",
             "trace=rx phy=100802495416 fdl=invalid state=DATA_EXCH",
         ):
             expect(f"{line} is there", line in text, True)

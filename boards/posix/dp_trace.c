@@ -20,6 +20,7 @@ struct note {
 static struct note notes[NOTES];
 static unsigned notes_n, lost;
 static uint64_t start_us; /* of the trace */
+static uint8_t asked;     /* FC of the last request */
 
 /* A telegram being received, which may come in several runs. bad: octets that are none, until the run is
  * over. */
@@ -94,8 +95,10 @@ static void say(const struct note *n, uint8_t state)
     if (n->good && tg_decode(n->octets, n->n, &t) == TG_GOOD) {
         dp_fdl_words(&t, text + at, sizeof text - (size_t)at);
         at += (int)strlen(text + at);
-        snprintf(text + at, sizeof text - (size_t)at, " ddlm=%s state=%s", dp_service(&t),
+        snprintf(text + at, sizeof text - (size_t)at, " ddlm=%s state=%s", dp_service(&t, asked),
                  dp_state_word(state));
+        if (t.fc & TG_REQUEST)
+            asked = t.fc;
     } else {
         snprintf(text + at, sizeof text - (size_t)at, "fdl=invalid state=%s", dp_state_word(state));
     }

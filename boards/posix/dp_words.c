@@ -1,5 +1,6 @@
 #include "dp_words.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 
 static const char *const requests[16] = {
@@ -66,15 +67,22 @@ static const char *by_sap(int16_t sap, bool request)
     return "none";
 }
 
-const char *dp_service(const struct tg *t)
+static bool fdl_alone(uint8_t request_fc)
 {
+    uint8_t function = request_fc & 0x0F;
+
+    return function == TG_STATUS || function == TG_IDENT || function == TG_LSAP;
+}
+
+const char *dp_service(const struct tg *t, uint8_t asked)
+{
+    bool request = (t->fc & TG_REQUEST) != 0;
     uint8_t function = t->fc & 0x0F;
 
-    if (t->sd == TG_SC || t->sd == TG_SD4)
+    if (t->sd == TG_SC || t->sd == TG_SD4 || fdl_alone(request ? t->fc : asked))
         return "none";
-    if (t->fc & TG_REQUEST)
-        return function == TG_STATUS || function == TG_IDENT || function == TG_LSAP ? "none"
-                                                                                    : by_sap(t->dsap, true);
+    if (request)
+        return by_sap(t->dsap, true);
     return function == TG_DL || function == TG_DH ? by_sap(t->ssap, false) : "none";
 }
 

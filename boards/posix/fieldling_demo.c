@@ -121,13 +121,16 @@ static void show_telegram(const uint8_t *octets, unsigned n, hv_time start, bool
 {
     char hex[3u * TG_MAX + 1u] = "", words[120] = "fdl=invalid";
     const char *service = "";
+    static uint8_t asked; /* FC of the last request */
     struct tg t;
 
     for (unsigned i = 0; i < n; i++)
         sprintf(hex + 3u * i, "%02X ", octets[i]);
     if (tg_decode(octets, n, &t) == TG_GOOD) {
         dp_fdl_words(&t, words, sizeof words);
-        service = dp_service(&t);
+        service = dp_service(&t, asked);
+        if (t.fc & TG_REQUEST)
+            asked = t.fc;
     }
     erase_block();
     printf("%10.6f %s %-58s %s ddlm=%s", (double)start / HV_S, answer ? "<-" : "->", hex, words, service);
