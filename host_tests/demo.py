@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """fieldling-demo, what `make run` shows: the whole way to data exchange, both directions changing, honest exit status."""
 import os
+import pty
 import re
 import signal
 import subprocess
@@ -19,6 +20,10 @@ def test_a_short_run_shows_everything_and_ends_with_a_summary():
     for word in ("FDL_STATUS", "Slave_Diag.req", "Slave_Diag.res", "Set_Prm.req", "Chk_Cfg.req", "Data_Exchange.req",
                  "Data_Exchange.res", "DATA_EXCH", "Virtual time"):
         expect(f"{word} is shown", word in result.stdout, True)
+    with open("README.md", encoding="utf-8") as readme:
+        shown = [line for line in readme.read().splitlines() if re.match(r" +0\.\d{6} (->|<-) ", line)]
+    expect("telegrams in README.md", [line for line in shown if line not in result.stdout], [])
+    expect("README.md shows some", len(shown) >= 4, True)
     lines = re.findall(r"DATA_EXCH +outputs (\w\w \w\w) -> +<- (\d+) degrees.* exchanges (\d+) +T_SDR 11\.0 T_bit +errors 0",
                        result.stdout)
     expect("lines", len(lines) >= 4, True)
@@ -30,6 +35,24 @@ def test_a_short_run_shows_everything_and_ends_with_a_summary():
     summary = result.stdout.splitlines()[-1]
     expect("summary", re.match(r"ok: \d+ exchanges in 5\.0 s, T_SDR 11\.0 \.\. 11\.0 bit times, 0 line errors", summary)
            is not None, True)
+
+
+def test_ctrl_c_on_a_terminal_ends_with_the_summary_and_status_0():
+    process, terminal = pty.fork()
+    if process == 0:
+        os.execv(PROGRAM, [PROGRAM])
+    said = b""
+    while b"DATA_EXCH" not in said or b"judge: no rule of the line broken" not in said:
+        said += os.read(terminal, 4096)
+    os.write(terminal, b"\x03")
+    try:
+        while True:
+            said += os.read(terminal, 4096)
+    except OSError:  # the terminal has no user any more
+        pass
+    expect("wait status", os.waitpid(process, 0)[1], 0)
+    expect("summary", b"\nok: " in said[said.rindex(b"DATA_EXCH"):], True)
+    os.close(terminal)
 
 
 def test_without_data_exchange_the_exit_status_is_not_0():

@@ -16,6 +16,8 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
+#include <termios.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -117,11 +119,23 @@ static void erase_block(void)
     block_lines = 0;
 }
 
+/* A line for each telegram; on a terminal no wider than it is. */
+static void say_line(char *text)
+{
+    struct winsize size;
+
+    if (live && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col != 0 && size.ws_col < strlen(text))
+        text[size.ws_col] = '\0';
+    erase_block();
+    puts(text);
+}
+
 static void show_telegram(const uint8_t *octets, unsigned n, hv_time start, bool answer)
 {
-    char hex[3u * TG_MAX + 1u] = "", words[120] = "fdl=invalid";
-    const char *service = "";
     static uint8_t asked; /* FC of the last request */
+    char hex[3u * TG_MAX + 1u] = "", words[120] = "fdl=invalid", sdr[24] = "", text[sizeof hex + 220u];
+    const char *service = "invalid";
+    int width = -1;
     struct tg t;
 
     for (unsigned i = 0; i < n; i++)
@@ -132,11 +146,15 @@ static void show_telegram(const uint8_t *octets, unsigned n, hv_time start, bool
         if (t.fc & TG_REQUEST)
             asked = t.fc;
     }
-    erase_block();
-    printf("%10.6f %s %-58s %s ddlm=%s", (double)start / HV_S, answer ? "<-" : "->", hex, words, service);
+    if (strcmp(service, "none") == 0) { /* FDL's own: the word behind "fdl=" */
+        service = words + 4;
+        width = (int)strcspn(service, " ");
+    }
     if (answer)
-        printf(" t_sdr=%.1f", t_bits(seg_said.t_sdr));
-    putchar('\n');
+        snprintf(sdr, sizeof sdr, " t_sdr=%.1f", t_bits(seg_said.t_sdr));
+    snprintf(text, sizeof text, "%10.6f %s %-18.*s %-51s %s%s", (double)start / HV_S, answer ? "<-" : "->", width,
+             service, hex, words, sdr);
+    say_line(text);
 }
 
 static void note_telegram(const char *who, hv_time start, const uint8_t *octets, unsigned n)
@@ -186,12 +204,14 @@ static unsigned show_state(void)
 
     ddlm_read_info(&i);
     fdl_read_counters(&c);
-    printf("%8.1f s  %-9s  outputs %02X %02X ->  <- %u degrees, door %s  exchanges %-6u T_SDR %.1f T_bit  "
-           "errors %u\n",
-           (double)hv_now() / HV_S, dp_state_word(i.state), station_out[1], station_out[3], slave.inputs[0],
-           slave.inputs[1] ? "open  " : "closed", slave.exchanges, t_bits(sdr_last), errors(&c));
-    if (!live)
+    printf("%8.1f s  %-9s  outputs %02X %02X ->  <- %u degrees, door %s  exchanges %-6u", (double)hv_now() / HV_S,
+           dp_state_word(i.state), station_out[1], station_out[3], slave.inputs[0],
+           slave.inputs[1] ? "open  " : "closed", slave.exchanges);
+    if (!live) {
+        printf(" T_SDR %.1f T_bit  errors %u\n", t_bits(sdr_last), errors(&c));
         return 0;
+    }
+    putchar('\n');
     printf("  slave    owner %u, groups %02X, watchdog %lu ms %s, sync %s, freeze %s, diagnosis %u octets\n",
            i.master, i.groups, (unsigned long)i.wd_ms, i.wd_on ? "on" : "off",
            i.sync_enabled ? "enabled" : "off", i.freeze_enabled ? "enabled" : "off", slave.diag_n);
@@ -206,8 +226,8 @@ static unsigned show_state(void)
 static void show_start(void)
 {
     printf("DP-TEST01 (slave %u) and a DP master (%u) on a simulated RS-485 segment, %lu bit/s.\n"
-           "Virtual time, paced to real time: T_SDR (in bit times) and all times are the segment's.\n\n",
-           SLAVE, MASTER, (unsigned long)phy_bit_per_s(baud));
+           "Virtual time, paced to real time: T_SDR (in bit times) and all times are the segment's.%s\n\n",
+           SLAVE, MASTER, (unsigned long)phy_bit_per_s(baud), live ? " Ctrl-C ends." : "");
 }
 
 static int show_end(void)
@@ -224,6 +244,39 @@ static int show_end(void)
            sdr_min == HV_NEVER ? 0.0 : t_bits(sdr_min), t_bits(sdr_max), errors(&c), master.dp.ini.resent,
            slave.lost, violations(), slave.exchanges > SHOWN_FIRST ? "" : "; data exchange was not reached");
     return good ? 0 : 1;
+}
+
+/* ---- the keyboard
+ * ---------------------------------------------------------------------------------------------- */
+
+static struct termios cooked;
+
+static void keys_off(void)
+{
+    tcsetattr(STDIN_FILENO, TCSANOW, &cooked);
+}
+
+/* On a terminal Ctrl-C comes as a key: a signal would go to make, too, which then ends with an error. */
+static bool keys_on(void)
+{
+    struct termios raw;
+
+    if (!live || tcgetpgrp(STDIN_FILENO) != getpgrp() || tcgetattr(STDIN_FILENO, &cooked) != 0)
+        return false;
+    raw = cooked;
+    raw.c_lflag &= (tcflag_t) ~(ISIG | ICANON | ECHO);
+    raw.c_cc[VMIN] = 0;
+    raw.c_cc[VTIME] = 0;
+    return tcsetattr(STDIN_FILENO, TCSANOW, &raw) == 0 && atexit(keys_off) == 0;
+}
+
+static void read_keys(void)
+{
+    char key;
+
+    while (read(STDIN_FILENO, &key, 1) == 1)
+        if (key == cooked.c_cc[VINTR] || key == 'q')
+            stopping = 1;
 }
 
 /* ---- pace
@@ -243,6 +296,7 @@ static void run(hv_time end)
     const struct timespec frame = {.tv_nsec = FRAME_NS};
     hv_time start = real_time() - hv_now();
     hv_time next_line = HV_S;
+    bool keys = keys_on();
 
     while (!stopping && hv_now() < end) {
         hv_time target = real_time() - start;
@@ -261,6 +315,8 @@ static void run(hv_time end)
         }
         fflush(stdout);
         nanosleep(&frame, NULL);
+        if (keys)
+            read_keys();
     }
 }
 
