@@ -175,7 +175,7 @@ static void non_volatile_cells_keep_what_was_written_last(void)
     uint8_t i;
 
     if (!CONTRACT_NV)
-        TEST_IGNORE_MESSAGE("QEMU does not model the flash controller of this part");
+        TEST_IGNORE_MESSAGE("this machine or its model keeps nothing without power");
     for (i = 0; i < HAL_NV_SIZE; i++)
         TEST_ASSERT_TRUE(hal_nv_write(i, (uint8_t)(0x5Au ^ i)));
     for (i = 0; i < HAL_NV_SIZE; i++)
@@ -193,7 +193,7 @@ static void non_volatile_cells_take_many_changes(void)
     uint16_t i;
 
     if (!CONTRACT_NV)
-        TEST_IGNORE_MESSAGE("QEMU does not model the flash controller of this part");
+        TEST_IGNORE_MESSAGE("this machine or its model keeps nothing without power");
     TEST_ASSERT_TRUE(hal_nv_write(7, 0xA7));
     for (i = 0; i < 600u; i++)
         TEST_ASSERT_TRUE(hal_nv_write(3, (uint8_t)i));

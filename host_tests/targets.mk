@@ -36,3 +36,22 @@ SCRIPT_TESTS_ONCE += host_tests/qemu_units.py host_tests/qemu_dp.py host_tests/q
 host_tests/qemu_units.py_TIMEOUT := 300
 host_tests/qemu_dp.py_TIMEOUT    := 300
 host_tests/qemu_modbus.py_TIMEOUT := 300
+
+# ---- the F2808 on a model of its registers ---------------------------------------------------------------------------------
+
+F2808_PORT = boards/f2808/board.c firmware/hal/f2808/machine.c firmware/hal/f2808/uart_sci.c firmware/hal/line_uart.c \
+             sim/f2808_sci.c
+F2808_CFLAGS = -Ihost_tests/contract/f2808 -Ifirmware/hal/f2808 -Iboards/f2808 -Ihost_tests
+
+UNIT_TESTS += f2808_contract
+f2808_contract_SRC    = host_tests/contract/f2808/peer.c $(F2808_PORT)
+f2808_contract_CFLAGS = $(F2808_CFLAGS)
+
+UNIT_TESTS += test_f2808
+test_f2808_SRC    = boards/f2808/echo_back.c $(F2808_PORT)
+test_f2808_CFLAGS = $(F2808_CFLAGS)
+
+UNIT_TESTS += f2808_modbus
+f2808_modbus_SRC      = $(filter-out boards/common/main_modbus.c boards/common/line_console.c,$(CONSOLE_MODBUS)) $(F2808_PORT)
+f2808_modbus_DEFAULTS = $(MODBUS_DEFAULTS)
+f2808_modbus_CFLAGS   = $(F2808_CFLAGS) -DMB_CONFIG='"inverter_mb.h"'

@@ -1,0 +1,1 @@
+#include "hal_contract.c" /* the same, on the model of the F2808 */
