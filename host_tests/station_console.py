@@ -19,7 +19,7 @@ def test_status_says_everything():
             expect(key, status[key], value)
         for key in ("sd_count sd_error_count parity overrun gap format checksum foreign requests retries answers cancelled "
                     "refused data_exchange global_control wrong_length prm_rejected cfg_rejected not_processed "
-                    "wd_expired").split():
+                    "wd_expired faults").split():
             expect(key, status[key], "0")
 
 

@@ -171,6 +171,19 @@ def test_an_address_set_by_a_master_is_kept_in_the_nv_file():
             expect("without the file", station.ask("status")["address"], "126")
 
 
+def test_an_address_that_cannot_be_stored_is_not_taken():
+    with tempfile.TemporaryDirectory() as folder:
+        os.mkdir(f"{folder}/gone")
+        with Station("fieldling-dp", "--baud", "500000", "--nv", f"{folder}/gone/nv") as station, \
+                RawMaster(station.pty) as master:
+            os.rmdir(f"{folder}/gone")
+            master.ask("68 09 09 68 FE 82 6D 37 3E 05 12 34 00 AD 16", "E5")
+            master.ask("10 7E 02 49 C9 16", "10 02 7E 00 80 16")
+            status = station.ask("status")
+            expect("address", status["address"], "126")
+            expect("faults", int(status["faults"]) > 0, True)
+
+
 # ---- the serial port's side (line_tty.c): one end of a pair is the device, the test holds the other. A pair has no bit
 # time and no parity; what a real port adds is checked by nobody here.
 

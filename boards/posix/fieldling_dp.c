@@ -39,6 +39,15 @@ void board_output(uint8_t module, uint8_t value)
     process_out[module] = value;
 }
 
+/* Management calls that failed (DDLM_Fault): of a running station only the non-volatile memory can. */
+static unsigned faults;
+
+void ddlm_fault_ind(uint8_t status)
+{
+    (void)status;
+    faults++;
+}
+
 /* ---- command line
  * --------------------------------------------------------------------------------------------- */
 
@@ -139,9 +148,9 @@ static void say_ddlm(void)
     ddlm_read_counters(&c);
     console_say(
         " data_exchange=%u global_control=%u wrong_length=%u prm_rejected=%u cfg_rejected=%u not_processed=%u"
-        " wd_expired=%u",
+        " wd_expired=%u faults=%u",
         c.data_exchange, c.global_control, c.wrong_length, c.prm_rejected, c.cfg_rejected, c.not_processed,
-        c.wd_expired);
+        c.wd_expired, faults);
 }
 
 static void cmd_status(char **words, uint8_t n)

@@ -69,7 +69,7 @@ static void sync_folder(void)
 static bool store(const uint8_t *content)
 {
     char beside[PATH_MAX + 4];
-    int fd;
+    int fd, why;
     bool ok;
 
     if (nv_path[0] == '\0')
@@ -81,7 +81,9 @@ static bool store(const uint8_t *content)
     ok = write(fd, content, HAL_NV_SIZE) == (ssize_t)HAL_NV_SIZE && fsync(fd) == 0;
     ok = close(fd) == 0 && ok;
     if (!ok || rename(beside, nv_path) != 0) {
+        why = errno;
         unlink(beside);
+        errno = why;
         return false;
     }
     sync_folder();
@@ -103,8 +105,11 @@ bool hal_nv_write(uint8_t index, uint8_t value)
         return true;
     memcpy(next, nv, sizeof next);
     next[index] = value;
-    if (!store(next))
+    errno = 0;
+    if (!store(next)) {
+        fprintf(stderr, "%s\n", line_error(nv_path, "cannot be written"));
         return false;
+    }
     memcpy(nv, next, sizeof nv);
     return true;
 }
