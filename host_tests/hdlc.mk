@@ -79,3 +79,22 @@ bench-hdlc: build/posix/fieldling-hdlc-scan
 	@build/posix/fieldling-hdlc-scan --preframe
 	@build/posix/fieldling-hdlc-scan --document
 	@build/posix/fieldling-hdlc-scan --document --preframe
+
+# The four modules on the 87C51FB.
+$(foreach t,$(HDLC_IMAGES),$(eval $(call hdlc_image,$t)))
+
+SCRIPT_TESTS_ONCE += host_tests/hdlc_chip.py
+host_tests/hdlc_chip.py_TIMEOUT = 400
+
+BENCHES += bench-hdlc-chip
+SIZES   += size-hdlc
+.PHONY: bench-hdlc-chip size-hdlc
+bench-hdlc-chip: $(foreach t,$(HDLC_IMAGES),build/87c51fb_hdlc/module-$t.ihx)
+	@python3 host_tests/hdlc_chip.py --figures
+size-hdlc: $(foreach t,$(HDLC_IMAGES),build/87c51fb_hdlc/module-$t.ihx)
+	@python3 host_tests/hdlc_chip.py test_images_are_within_the_budget
+
+STATIC += check-hdlc-contexts
+.PHONY: check-hdlc-contexts
+check-hdlc-contexts: build/87c51fb_hdlc/module-ai.ihx
+	@python3 host_tests/check_contexts.py --sources firmware --sources boards $$(find build/87c51fb_hdlc/module-ai -name '*.asm')

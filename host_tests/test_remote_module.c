@@ -41,7 +41,8 @@ void tearDown(void)
 static void sample(void)
 {
     hv_vm.in_isr = true;
-    rm_sample_isr();
+    for (unsigned i = 0; i < RM_SAMPLE_MS; i++)
+        rm_tick_isr();
     hv_vm.in_isr = false;
 }
 

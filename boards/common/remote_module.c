@@ -12,7 +12,9 @@ struct rm_counters XDATA rm_counters;
 static uint8_t type;
 static uint16_t XDATA outputs[RM_DIGITAL_CHANNELS];
 static volatile uint16_t XDATA inputs[RM_ANALOG_CHANNELS]; /* digital: all in inputs[0] */
+static uint8_t tick; /* milliseconds since the last sample began */
 
+STATIC_ASSERT(RM_SAMPLE_MS >= RM_ANALOG_CHANNELS && RM_SAMPLE_MS <= 250, a_sample_has_time_for_six_conversions);
 STATIC_ASSERT(HDLC_INFO_MAX >= 36, an_answer_with_all_line_counters_fits);
 
 /* The command being carried out, and its answer. index: of the channel, from 0. */
@@ -82,19 +84,18 @@ uint16_t rm_output(uint8_t index)
     return outputs[index];
 }
 
-/* The board's converter and the log see the same moment. */
-void rm_sample_isr(void) IN_ISR
+/* One conversion a millisecond: six in a row would take an 8051 longer than an octet on the line. */
+void rm_tick_isr(void) IN_ISR
 {
-    uint8_t i;
+    const uint8_t step = tick;
 
-    if (type == RM_DI) {
+    tick = step + 1u < RM_SAMPLE_MS ? (uint8_t)(step + 1u) : 0;
+    if (type == RM_DI && step == 0) {
         inputs[0] = rm_board_inputs_isr();
         rm_log_word_isr(inputs[0]);
-    } else if (type == RM_AI) {
-        for (i = 0; i < RM_ANALOG_CHANNELS; i++) {
-            inputs[i] = rm_board_adc_isr(i);
-            rm_log_word_isr(inputs[i]);
-        }
+    } else if (type == RM_AI && step < RM_ANALOG_CHANNELS) {
+        inputs[step] = rm_board_adc_isr(step);
+        rm_log_word_isr(inputs[step]);
     }
 }
 
@@ -312,7 +313,10 @@ bool rm_init(uint8_t of, uint8_t address, uint8_t mode)
 
     type = of;
     rm_log_init(is_analog() ? RM_LOG_CHANNELS_ANALOG : 1u);
-    rm_sample_isr();
+    tick = 0;
+    do /* the first sample */
+        rm_tick_isr();
+    while (tick);
     hal_irq_restore(irq);
     rm_counters.executed = rm_counters.refused = rm_counters.safe = 0;
     outputs_safe();

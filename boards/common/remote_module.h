@@ -19,7 +19,7 @@
  * Negative answer in I-frames, our choice: function + 80H, ch (00 if there was none), reason (enum rm_reason). In the
  * document's mode: silence and a counter. In both no output has changed.
  *
- * Context: main, except rm_sample_isr.
+ * Context: main, except rm_tick_isr.
  */
 #ifndef REMOTE_MODULE_H
 #define REMOTE_MODULE_H
@@ -46,7 +46,7 @@ enum rm_reason {
 #define RM_ANALOG_CHANNELS  6u  /* 01..06 */
 #define RM_ANALOG_MAX       0x0FFFu
 
-/* Time between two samples [ms]: what the board's sampling timer is set to. */
+/* Time between two samples [ms], 6..250. */
 #ifndef RM_SAMPLE_MS
 #define RM_SAMPLE_MS 10u
 #endif
@@ -73,8 +73,8 @@ bool rm_init(uint8_t type, uint8_t address, uint8_t mode);
 /* One pass of the main loop: at most one frame, one step of each check. */
 void rm_poll(void);
 
-/* The sampling timer: read the inputs and log them. isr. */
-void rm_sample_isr(void) IN_ISR;
+/* The board's timer, every millisecond: a sample is taken every RM_SAMPLE_MS, its analog channels 1 ms apart. isr. */
+void rm_tick_isr(void) IN_ISR;
 
 /* Carry out a command info[0..n-1] -> length of the answer at answer[0..]; in the document's mode 0: silence. */
 uint8_t rm_execute(const uint8_t XDATA *info, uint8_t n, uint8_t XDATA *answer, bool in_document_mode);

@@ -233,7 +233,7 @@ static const struct console_command commands[] = {
 
 /* ---- the program --------------------------------------------------------------------------------- */
 
-/* The sampling timer. hal_ticks() wraps: count the milliseconds here. */
+/* The sampling timer. hal_ticks() wraps: count the milliseconds here. A host that was stopped for long makes up for it. */
 static void sample_when_due(void)
 {
     static uint16_t last;
@@ -241,13 +241,12 @@ static void sample_when_due(void)
     const uint16_t now = hal_ticks();
     uint8_t irq;
 
-    if ((uint16_t)(now - last) < RM_SAMPLE_MS)
+    if (now == last)
         return;
-    ms += (uint16_t)(now - last);
-    last = now;
     rm_host_live(ms);
     irq = hal_irq_save();
-    rm_sample_isr();
+    for (; last != now; last++, ms++)
+        rm_tick_isr();
     hal_irq_restore(irq);
 }
 

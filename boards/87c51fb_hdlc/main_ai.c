@@ -1,0 +1,2 @@
+#define MODULE RM_AI
+#include "main.h"

@@ -1,0 +1,2 @@
+#define MODULE RM_AO
+#include "main.h"

@@ -1,0 +1,2 @@
+#define MODULE RM_DI
+#include "main.h"

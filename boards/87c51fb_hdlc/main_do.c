@@ -1,0 +1,2 @@
+#define MODULE RM_DO
+#include "main.h"
