@@ -46,6 +46,36 @@ void console_line(const char *text)
     hal_con_put('\n');
 }
 
+static bool ended;
+
+void console_quit(char **words, uint8_t n)
+{
+    (void)words;
+    if (n != 1) {
+        console_error("no-argument-expected");
+        return;
+    }
+    ended = true;
+    console_say("quit=ok");
+}
+
+bool console_ended(void)
+{
+    return ended;
+}
+
+bool console_switch(char **words, uint8_t n, bool *on)
+{
+    *on = n == 2 && strcmp(words[1], "on") == 0;
+    if (!*on && !(n == 2 && strcmp(words[1], "off") == 0)) {
+        console_error("usage-");
+        console_say("%s-on-or-off", words[0]);
+        return false;
+    }
+    console_say("%s=%s", words[0], words[1]);
+    return true;
+}
+
 static void run_command(char **words, uint8_t n)
 {
     for (const struct console_command *c = commands; c->verb; c++) {

@@ -32,6 +32,13 @@ void console_say(const char *format, ...) __attribute__((format(printf, 1, 2)));
 /* Replaces what has been said by error=reason. */
 void console_error(const char *reason);
 
+/* Commands every station has, for its table. quit: console_ended() is true from now on. */
+void console_quit(char **words, uint8_t n);
+bool console_ended(void);
+
+/* VERB on | off: -> true, *on says which, and the answer is given; false: anything else, and error= is the answer. */
+bool console_switch(char **words, uint8_t n, bool *on);
+
 /* A line that answers nothing (a trace). Not inside a handler. */
 void console_line(const char *text);
 

@@ -16,8 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- the board: what is plugged into the four modules
- * ------------------------------------------------------- */
+/* ---- the board: what is plugged into the four modules -------------------------------------------------- */
 
 #define MODULE_ROW(name, in, out, ...) {in, out},
 static const struct {
@@ -48,8 +47,7 @@ void ddlm_fault_ind(uint8_t status)
     faults++;
 }
 
-/* ---- command line
- * --------------------------------------------------------------------------------------------- */
+/* ---- command line -------------------------------------------------------------------------------------- */
 
 static struct hal_host host = {.switches = FDL_UNADDRESSED};
 static uint8_t baud = DDLM_BAUD_AUTO;
@@ -111,10 +109,7 @@ static const char more[] =
     "  quit              end\n"
     "The end of the input does not end the station. SIGTERM and SIGINT do, with status 0.\n";
 
-/* ---- console
- * ---------------------------------------------------------------------------------------------------- */
-
-static bool quit;
+/* ---- console ------------------------------------------------------------------------------------------- */
 
 static void say_hex(const uint8_t *octets, size_t n)
 {
@@ -247,25 +242,10 @@ static void cmd_diag(char **words, uint8_t n)
 
 static void cmd_trace(char **words, uint8_t n)
 {
-    bool on = n == 2 && strcmp(words[1], "on") == 0;
+    bool on;
 
-    if (!on && !(n == 2 && strcmp(words[1], "off") == 0)) {
-        console_error("usage-trace-on-or-off");
-        return;
-    }
-    dp_trace_set(on);
-    console_say("trace=%s", words[1]);
-}
-
-static void cmd_quit(char **words, uint8_t n)
-{
-    (void)words;
-    if (n != 1) {
-        console_error("no-argument-expected");
-        return;
-    }
-    quit = true;
-    console_say("quit=ok");
+    if (console_switch(words, n, &on))
+        dp_trace_set(on);
 }
 
 static const struct console_command commands[] = {
@@ -274,12 +254,11 @@ static const struct console_command commands[] = {
     {"out", cmd_out},
     {"diag", cmd_diag},
     {"trace", cmd_trace},
-    {"quit", cmd_quit},
+    {"quit", console_quit},
     {0},
 };
 
-/* ---- the program
- * -------------------------------------------------------------------------------------------------- */
+/* ---- the program --------------------------------------------------------------------------------------- */
 
 static void start(void)
 {
@@ -307,7 +286,7 @@ int main(int argc, char **argv)
 
     options_read(argc, argv, "fieldling-dp: the PROFIBUS-DP slave DP-TEST01 (ident 1234)", options, more);
     start();
-    while (!quit && !hal_host_stopping()) {
+    while (!console_ended() && !hal_host_stopping()) {
         dp_test01_poll();
         ddlm_read_info(&info);
         dp_trace_poll(info.state);

@@ -80,8 +80,6 @@ static const char more[] =
 
 /* ---- console ------------------------------------------------------------------------------------- */
 
-static bool quit;
-
 static bool analog(void)
 {
     return type == RM_AI || type == RM_AO;
@@ -207,28 +205,15 @@ static void trace(enum hb_event event, const uint8_t *octets, unsigned n, bool s
 
 static void cmd_trace(char **words, uint8_t n)
 {
-    if (n != 2 || on_or_off(words[1]) < 0) {
-        console_error("usage-trace-on-or-off");
-        return;
-    }
-    hdlc_line_tap = on_or_off(words[1]) == 1 ? trace : NULL;
-    console_say("trace=%s", words[1]);
-}
+    bool on;
 
-static void cmd_quit(char **words, uint8_t n)
-{
-    (void)words;
-    if (n != 1) {
-        console_error("no-argument-expected");
-        return;
-    }
-    quit = true;
-    console_say("quit=ok");
+    if (console_switch(words, n, &on))
+        hdlc_line_tap = on ? trace : NULL;
 }
 
 static const struct console_command commands[] = {
     {"status", cmd_status}, {"in", cmd_in},       {"out", cmd_out},   {"busy", cmd_busy},
-    {"fault", cmd_fault},   {"trace", cmd_trace}, {"quit", cmd_quit}, {0},
+    {"fault", cmd_fault},   {"trace", cmd_trace}, {"quit", console_quit}, {0},
 };
 
 /* ---- the program --------------------------------------------------------------------------------- */
@@ -273,7 +258,7 @@ int main(int argc, char **argv)
 {
     options_read(argc, argv, "fieldling-hdlc: a remote module, HDLC NRM secondary on an Intel 8273", options, more);
     start();
-    while (!quit && !hal_host_stopping()) {
+    while (!console_ended() && !hal_host_stopping()) {
         rm_poll();
         hdlc_line_poll();
         sample_when_due();

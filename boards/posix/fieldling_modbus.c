@@ -128,8 +128,6 @@ static const char more[] =
 
 /* ---- console ------------------------------------------------------------------------------------------- */
 
-static bool quit;
-
 static void cmd_status(char **words, uint8_t n)
 {
     static const char *const names[MB_COUNTERS] = {"bus_message", "bus_error", "exception", "slave_message",
@@ -209,28 +207,14 @@ static void cmd_set(char **words, uint8_t n)
 
 static void cmd_trace(char **words, uint8_t n)
 {
-    const bool on = n == 2 && strcmp(words[1], "on") == 0;
-    if (!on && !(n == 2 && strcmp(words[1], "off") == 0)) {
-        console_error("usage-trace-on-or-off");
-        return;
-    }
-    mb_trace_set(on);
-    console_say("trace=%s", words[1]);
-}
+    bool on;
 
-static void cmd_quit(char **words, uint8_t n)
-{
-    (void)words;
-    if (n != 1) {
-        console_error("no-argument-expected");
-        return;
-    }
-    quit = true;
-    console_say("quit=ok");
+    if (console_switch(words, n, &on))
+        mb_trace_set(on);
 }
 
 static const struct console_command commands[] = {
-    {"status", cmd_status}, {"get", cmd_get}, {"set", cmd_set}, {"trace", cmd_trace}, {"quit", cmd_quit}, {0},
+    {"status", cmd_status}, {"get", cmd_get}, {"set", cmd_set}, {"trace", cmd_trace}, {"quit", console_quit}, {0},
 };
 
 /* ---- the program --------------------------------------------------------------------------------------- */
@@ -284,7 +268,7 @@ int main(int argc, char **argv)
     mb_port.address = 1;
     options_read(argc, argv, "fieldling-modbus: a Modbus server, RTU or ASCII", options, more);
     start();
-    while (!quit && !hal_host_stopping()) {
+    while (!console_ended() && !hal_host_stopping()) {
         mb_poll();
         if (!is_image)
             inv_poll();
