@@ -49,7 +49,7 @@ void line_sent_isr(void) IN_ISR
     seen.sents++;
 }
 
-/* ---- time ---------------------------------------------------------------------------------------------------------------- */
+/* ---- time ------------------------------------------------------------------------------------------------ */
 
 static uint16_t began;
 
@@ -84,7 +84,7 @@ static void is_between(uint16_t least, uint16_t ms)
     TEST_ASSERT_LESS_OR_EQUAL_UINT16(least + 2u + CONTRACT_LATE_MS, ms);
 }
 
-/* ---- before and after each ------------------------------------------------------------------------------------------------ */
+/* ---- before and after each ------------------------------------------------------------------------------- */
 
 static void forget(void)
 {
@@ -142,7 +142,7 @@ static void send(uint8_t n)
     hal_irq_restore(irq);
 }
 
-/* ---- machine -------------------------------------------------------------------------------------------------------------- */
+/* ---- machine --------------------------------------------------------------------------------------------- */
 
 static void time_goes_by_for_a_main_loop_that_sleeps(void)
 {
@@ -217,7 +217,7 @@ static void masking_nests_and_masked_upcalls_are_late_but_not_lost(void)
     wait_for(&seen.silences, 1);
 }
 
-/* ---- bit times --------------------------------------------------------------------------------------------------------------- */
+/* ---- bit times ------------------------------------------------------------------------------------------- */
 
 static void bit_times_are_rounded_up_and_grow_with_n(void)
 {
@@ -235,7 +235,7 @@ static void bit_times_are_rounded_up_and_grow_with_n(void)
     TEST_ASSERT_TRUE(hal_tbit(0xFFFE) >= hal_tbit(0x4000));
 }
 
-/* ---- silence --------------------------------------------------------------------------------------------------------------------- */
+/* ---- silence --------------------------------------------------------------------------------------------- */
 
 static void a_silence_is_reported_once_and_in_time(void)
 {
@@ -283,7 +283,7 @@ static void a_limit_set_in_the_upcall_counts_from_the_last_octet(void)
     is_between(99u, wait_for(&seen.silences, 2));
 }
 
-/* ---- the line ---------------------------------------------------------------------------------------------------------------- */
+/* ---- the line -------------------------------------------------------------------------------------------- */
 
 static void what_is_sent_is_not_heard_but_its_echo_is(void)
 {

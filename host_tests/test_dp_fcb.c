@@ -115,8 +115,7 @@ static void T23_after_power_up_nothing_is_a_retry(void)
     ASK(NEXT_0, "10 02 08 03 0D 16"); /* RS: not in DATA_EXCH; the old answer is gone */
 }
 
-/* ---- T24: each Data_Exchange exactly once ----------------------------------------------------------------
- */
+/* ---- T24: each Data_Exchange exactly once ---------------------------------------------------------------- */
 
 /* The master numbers its outputs and checks that the application was given every number that the master knows
  * to have arrived, in order, and none twice. A number whose answer was lost for good may have been executed
@@ -218,8 +217,7 @@ static void T24_each_Data_Exchange_is_executed_exactly_once_whatever_gets_lost(v
     TEST_ASSERT_GREATER_THAN_UINT16_MESSAGE(0, c.retries, "retries did happen");
 }
 
-/* ---- T25: SAPs
- * --------------------------------------------------------------------------------------------- */
+/* ---- T25: SAPs ------------------------------------------------------------------------------------------- */
 
 static void T25_an_SRD_or_SDA_to_a_SAP_that_is_not_active_is_answered_RS(void)
 {

@@ -40,7 +40,7 @@ void tearDown(void)
 {
 }
 
-/* ---- the model: takes the request, fills the answer's data, -> its function code, SILENCE or ACKNOWLEDGE ------------ */
+/* ---- the model: takes the request, fills the answer's data, -> its function code, SILENCE or ACKNOWLEDGE ---- */
 
 static void lose_owner(uint8_t faults)
 {
@@ -204,7 +204,7 @@ static int expected(const struct tg *t, uint8_t *data, unsigned *n)
     }
 }
 
-/* ---- random requests, good ones often ------------------------------------------------------------------------------ */
+/* ---- random requests, good ones often -------------------------------------------------------------------- */
 
 static void random_set_prm(struct tg *t)
 {

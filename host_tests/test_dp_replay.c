@@ -28,7 +28,7 @@ static void inputs(const char *text)
     hv_run_for(HV_MS);
 }
 
-/* ---- spec A12: master 0, slave 16 ---------------------------------------------------------------------------------- */
+/* ---- spec A12: master 0, slave 16 ------------------------------------------------------------------------ */
 
 #define A12_DIAG "68 05 05 68 90 80 6D 3C 3E F7 16"
 #define A12_DX                                                                                               \
@@ -90,7 +90,7 @@ static void A12_the_prototypes_Set_Prm(void)
     STATE(DDLM_WAIT_PRM);
 }
 
-/* ---- facts 3.10: master 1 brings up an ET200S --------------------------------------------------------------------------- */
+/* ---- facts 3.10: master 1 brings up an ET200S ------------------------------------------------------------ */
 
 static void T89_the_ET200S_conversation(void)
 {
@@ -110,7 +110,7 @@ static void T89_the_ET200S_conversation(void)
     ASK("10 08 01 7D 86 16", "68 05 05 68 01 08 08 12 34 57 16"); /* no outputs: the request is an SD1 */
 }
 
-/* ---- facts 2.1: pyprofibus 1.13 ------------------------------------------------------------------------------------------ */
+/* ---- facts 2.1: pyprofibus 1.13 -------------------------------------------------------------------------- */
 
 static void T90_the_pyprofibus_conversation(void)
 {
@@ -129,7 +129,7 @@ static void T90_the_pyprofibus_conversation(void)
         "68 0A 0A 68 82 88 08 3E 3B 00 20 20 10 10 EB 16"); /* FCB 0 FCV 0 */
 }
 
-/* ---- facts 2.2: profirust 0.6.0 ------------------------------------------------------------------------------------------- */
+/* ---- facts 2.2: profirust 0.6.0 -------------------------------------------------------------------------- */
 
 static void T91_the_profirust_conversation(void)
 {
@@ -147,7 +147,7 @@ static void T91_the_profirust_conversation(void)
     ASK("A2 08 02 7D 00 00 00 00 00 00 00 00 87 16", "A2 02 08 08 FF FF FF FF FF FF FF FF 0A 16");
 }
 
-/* ---- configurations that are adapted to -------------------------------------------------------------------------------------- */
+/* ---- configurations that are adapted to ------------------------------------------------------------------ */
 
 #define ANY_PRM "68 0C 0C 68 88 82 6D 3D 3E 80 01 01 00 00 AA 01 1F 16"
 

@@ -81,8 +81,7 @@ static void run_ms(unsigned ms)
         hal_idle();
 }
 
-/* ---- the master
- * ---------------------------------------------------------------------------------------------- */
+/* ---- the master ------------------------------------------------------------------------------------------ */
 
 static int master_open(void)
 {
@@ -121,8 +120,7 @@ void tearDown(void)
 {
 }
 
-/* ---- octets
- * ---------------------------------------------------------------------------------------------------- */
+/* ---- octets ---------------------------------------------------------------------------------------------- */
 
 static void octets_come_in_order_every_value_without_error(void)
 {
@@ -208,8 +206,7 @@ static void a_master_that_never_reads_does_not_stop_the_station(void)
     TEST_FAIL_MESSAGE("the pty never filled");
 }
 
-/* ---- silence
- * ---------------------------------------------------------------------------------------------------- */
+/* ---- silence --------------------------------------------------------------------------------------------- */
 
 static void silence_is_called_once_and_not_before_its_time(void)
 {
@@ -307,8 +304,7 @@ static void an_answer_after_silence_reaches_the_master(void)
     close(m);
 }
 
-/* ---- masters come and go
- * ------------------------------------------------------------------------------------------ */
+/* ---- masters come and go --------------------------------------------------------------------------------- */
 
 static void what_is_sent_to_nobody_is_lost_and_reported_as_sent(void)
 {
@@ -414,8 +410,7 @@ static void idle_takes_hardly_any_processor_time_with_and_without_a_master(void)
     }
 }
 
-/* ---- times, rates
- * --------------------------------------------------------------------------------------------------- */
+/* ---- times, rates ---------------------------------------------------------------------------------------- */
 
 static void bit_times_are_rounded_up_and_saturate(void)
 {
@@ -444,8 +439,7 @@ static void ticks_are_milliseconds(void)
     TEST_ASSERT_UINT_WITHIN(1, (now_us() - start) / 1000u, passed);
 }
 
-/* ---- PARMRK: termios(3)
- * ------------------------------------------------------------------------------------------------ */
+/* ---- PARMRK: termios(3) ---------------------------------------------------------------------------------- */
 
 static void marked_octets(const char *in, size_t n, const char *octets, const uint8_t *errs, size_t expected)
 {
@@ -476,8 +470,7 @@ static void parmrk_tells_good_octets_from_wrong_ones(void)
                   "\x10\xFF\xA2\xFF\x00\x00\x16", errs, 7);
 }
 
-/* ---- non-volatile memory
- * ----------------------------------------------------------------------------------------------- */
+/* ---- non-volatile memory --------------------------------------------------------------------------------- */
 
 static char nv_path[80];
 

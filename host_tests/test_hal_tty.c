@@ -234,7 +234,7 @@ static void settings_are_put_back_at_the_end(void)
     TEST_ASSERT_EQUAL_MEMORY(&before, &driver.now, sizeof before);
 }
 
-/* ---- octets -------------------------------------------------------------------------------------------------------- */
+/* ---- octets ---------------------------------------------------------------------------------------------- */
 
 static void marked_octets_arrive_with_their_errors(void)
 {

@@ -53,7 +53,7 @@ static void keep(uint64_t start, const uint8_t *octets, unsigned n)
     fprintf(record, "\n");
 }
 
-/* ---- the line --------------------------------------------------------------------------------------------------- */
+/* ---- the line -------------------------------------------------------------------------------------------- */
 
 static void on_says(void *of, uint8_t octet, uint64_t start, uint64_t end)
 {
@@ -142,7 +142,7 @@ static void everybody_until(uint64_t t)
     line.now = t;
 }
 
-/* ---- stations and master ------------------------------------------------------------------------------------------ */
+/* ---- stations and master --------------------------------------------------------------------------------- */
 
 /* A copy of the file of its own, or the loader would hand out the same station twice. */
 static const struct many_station *load(const char *image, const char *folder, unsigned i)
@@ -254,7 +254,7 @@ static void run(unsigned cycles)
     }
 }
 
-/* ---- what is said about it -------------------------------------------------------------------------------------------- */
+/* ---- what is said about it ------------------------------------------------------------------------------- */
 
 /* -> all stations exchange data, each its own, and nobody broke a rule. */
 static bool judge(bool aloud)

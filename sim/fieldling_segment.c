@@ -43,7 +43,7 @@ static void on_signal(int signal)
     stop = 1;
 }
 
-/* ---- ports ------------------------------------------------------------------------------------------------------ */
+/* ---- ports ----------------------------------------------------------------------------------------------- */
 
 /* Empty the far end and leave it raw, at a rate no fieldbus has: whoever opens it then changes something, without which
  * Linux refuses parity on a pty. */
@@ -87,7 +87,7 @@ static void look(struct port *p)
     p->present = present;
 }
 
-/* ---- octets ----------------------------------------------------------------------------------------------------- */
+/* ---- octets ---------------------------------------------------------------------------------------------- */
 
 static void spread(const struct port *from, const uint8_t *octets, size_t n)
 {
@@ -149,7 +149,7 @@ static void run(void)
     }
 }
 
-/* ---- command line ------------------------------------------------------------------------------------------------- */
+/* ---- command line ---------------------------------------------------------------------------------------- */
 
 static int usage(FILE *to)
 {

@@ -32,8 +32,7 @@ static uint8_t baud = PHY_BAUD_93K75;
 static bool live; /* the output is a terminal */
 static volatile sig_atomic_t stopping;
 
-/* ---- the station's board: a room that warms up and cools down, and a door switch --------------------------
- */
+/* ---- the station's board: a room that warms up and cools down, and a door switch ------------------------- */
 
 static uint8_t station_out[4];
 
@@ -67,8 +66,7 @@ static void boot(void)
     hal_irq_restore(HAL_IRQ_ON);
 }
 
-/* ---- the master
- * --------------------------------------------------------------------------------------------- */
+/* ---- the master ------------------------------------------------------------------------------------------ */
 
 /* Lock, Sync and Freeze wanted, watchdog 20 * 1 * 10 ms; report more than 33 degrees. */
 static struct dp_slave slave = {
@@ -97,8 +95,7 @@ static void set_outputs(struct dp_master *m, struct dp_slave *s)
 static struct bus_master master = {
     .dp = {.ini = {.address = MASTER, .retries = 1}, .slaves = &slave, .slaves_n = 1, .before = set_outputs}};
 
-/* ---- what is shown
- * ------------------------------------------------------------------------------------------- */
+/* ---- what is shown --------------------------------------------------------------------------------------- */
 
 static unsigned block_lines; /* of the live picture on the screen */
 static hv_time sdr_last, sdr_min = HV_NEVER, sdr_max;
@@ -246,8 +243,7 @@ static int show_end(void)
     return good ? 0 : 1;
 }
 
-/* ---- the keyboard
- * ---------------------------------------------------------------------------------------------- */
+/* ---- the keyboard ---------------------------------------------------------------------------------------- */
 
 static struct termios cooked;
 
@@ -279,8 +275,7 @@ static void read_keys(void)
             stopping = 1;
 }
 
-/* ---- pace
- * ------------------------------------------------------------------------------------------------------ */
+/* ---- pace ------------------------------------------------------------------------------------------------ */
 
 static hv_time real_time(void)
 {
@@ -320,8 +315,7 @@ static void run(hv_time end)
     }
 }
 
-/* ---- the program
- * -------------------------------------------------------------------------------------------------- */
+/* ---- the program ----------------------------------------------------------------------------------------- */
 
 static const char *take_seconds(const char *value)
 {

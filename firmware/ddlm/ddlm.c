@@ -11,7 +11,7 @@ struct ddlm_counters XDATA ddlm_counters;
 
 static uint16_t last_tick;
 
-/* ---- service table ----------------------------------------------------------------------------------------------------- */
+/* ---- service table --------------------------------------------------------------------------------------- */
 
 /* In which states a SAP is active; elsewhere FDL answers RS. */
 #define IN_POWER_ON  0x01u
@@ -121,7 +121,7 @@ void fdl_data_ind(const struct fdl_ind XDATA *ind)
     }
 }
 
-/* ---- state machine ------------------------------------------------------------------------------------------------------- */
+/* ---- state machine --------------------------------------------------------------------------------------- */
 
 /* The only writer of the state, and the one place to trace. */
 void ddlm_set_state(uint8_t state)

@@ -45,20 +45,21 @@ enum ddlm_status { DDLM_OK, DDLM_IV, DDLM_NO, DDLM_DS, DDLM_NA, DDLM_RS, DDLM_RR
 
 /* ---- station --------------------------------------------------------------------------------------------------- */
 
-/* DDLM_Slave_Init: resets FMA and all below, takes the address (0..125 from switches: Set_Slave_Add is then refused with
- * RS; 126: the stored address, or 126 until a master sets one) and the rate (enum phy_baud, or DDLM_BAUD_AUTO to search for
- * it), activates the SAPs. Interrupts masked. -> DDLM_OK; DDLM_IV: no such address or rate; DDLM_NO: the board
- * cannot do that rate. Also raises ddlm_fault_ind() where it fails. */
+/* DDLM_Slave_Init: resets FMA and all below, takes the address (0..125 from switches: Set_Slave_Add is then
+ * refused with RS; 126: the stored address, or 126 until a master sets one) and the rate (enum phy_baud, or
+ * DDLM_BAUD_AUTO to search for it), activates the SAPs. Interrupts masked. -> DDLM_OK; DDLM_IV: no such address or
+ * rate; DDLM_NO: the board cannot do that rate. Also raises ddlm_fault_ind() where it fails. */
 uint8_t ddlm_slave_init(uint8_t switches, uint8_t baud);
 
-/* One turn of the main loop: takes indications, watchdog, baud search, diagnosis. Bounded: at most FDL_BOXES services. */
+/* One turn of the main loop: takes indications, watchdog, baud search, diagnosis. Bounded: at most FDL_BOXES
+ * services. */
 void ddlm_poll(void);
 
 /* Forget the stored address and No_Add_Chg: a factory reset. Takes effect at the next ddlm_slave_init(). False: the
  * non-volatile memory does not store. */
 bool ddlm_factory_reset(void);
 
-/* ---- process data ------------------------------------------------------------------------------------------------ */
+/* ---- process data ---------------------------------------------------------------------------------------- */
 
 /* Data_Exchange_Upd and RD_Inp_Upd: the inputs, all of them (ddlm_info.input_len octets). The first call after a good
  * Chk_Cfg declares input data ready. Under Freeze they wait for the next Freeze. Cheap to call every turn. */
@@ -71,17 +72,17 @@ void ddlm_inputs(const uint8_t XDATA *inputs);
 enum ddlm_out { DDLM_OUT_SAME, DDLM_OUT_NEW, DDLM_OUT_SAFE };
 uint8_t ddlm_outputs(uint8_t XDATA *outputs);
 
-/* ---- diagnosis ----------------------------------------------------------------------------------------------------- */
+/* ---- diagnosis ------------------------------------------------------------------------------------------- */
 
-/* Slave_Diag_Upd: ext[0..len-1] are whole extended diagnosis blocks (device, identifier or channel related; spec A6), what
- * is longer than DEV_EXT_DIAG_MAX is cut and marked Ext_Diag_Overflow. flags: DDLM_EXT_DIAG the blocks are a fault, not
- * a status; DDLM_STAT_DIAG static: the master keeps reading until it is cleared. The owner is told with the next
- * Data_Exchange (DH). -> false: malformed blocks, nothing changed. */
+/* Slave_Diag_Upd: ext[0..len-1] are whole extended diagnosis blocks (device, identifier or channel related; spec
+ * A6), what is longer than DEV_EXT_DIAG_MAX is cut and marked Ext_Diag_Overflow. flags: DDLM_EXT_DIAG the blocks
+ * are a fault, not a status; DDLM_STAT_DIAG static: the master keeps reading until it is cleared. The owner is
+ * told with the next Data_Exchange (DH). -> false: malformed blocks, nothing changed. */
 #define DDLM_EXT_DIAG  0x01u
 #define DDLM_STAT_DIAG 0x02u
 bool ddlm_diag(const uint8_t XDATA *ext, uint8_t len, uint8_t flags);
 
-/* ---- what the station is doing --------------------------------------------------------------------------------------- */
+/* ---- what the station is doing --------------------------------------------------------------------------- */
 
 /* 16-bit counts wrap. */
 struct ddlm_counters {
@@ -116,14 +117,14 @@ struct ddlm_info {
 void ddlm_read_info(struct ddlm_info XDATA *to);
 void ddlm_read_counters(struct ddlm_counters XDATA *to);
 
-/* ---- implemented by the application; defaults are in the library ------------------------------------------------------- */
+/* ---- implemented by the application; defaults are in the library ----------------------------------------- */
 
 /* User_Prm_Data of a Set_Prm whose other octets are good; len within DEV_USER_PRM_MIN..MAX. False: Prm_Fault.
  * Default: takes anything. */
 bool ddlm_user_prm_ind(const uint8_t XDATA *prm, uint8_t len);
 
-/* A configuration that is not the device's own: true takes it (its lengths are then read from the identifiers and must fit
- * DEV_INPUT_MAX and DEV_OUTPUT_MAX). Default: false. */
+/* A configuration that is not the device's own: true takes it (its lengths are then read from the identifiers and
+ * must fit DEV_INPUT_MAX and DEV_OUTPUT_MAX). Default: false. */
 bool ddlm_adapt_cfg_ind(const uint8_t XDATA *cfg, uint8_t len);
 
 /* The station changed state. Default: nothing. */

@@ -2,8 +2,9 @@
  *
  *   octet 1 New_Slave_Add   2, 3 Ident_Number   4 No_Add_Chg   5... Rem_Slave_Data (not used)
  *
- * Taken only without an owner (POWER_ON at address 126, WAIT_PRM), with the right ident, and while changes are allowed;
- * otherwise acknowledged and not processed. our choice: the new address is valid at once, as in most ASICs.
+ * Taken only without an owner (POWER_ON at address 126, WAIT_PRM), with the right ident, and while changes are
+ * allowed; otherwise acknowledged and not processed. our choice: the new address is valid at once, as in most
+ * ASICs.
  * Source   EN 50170-2 part 8, Set_Slave_Add; spec A6; facts 3.12
  */
 #include "bytes.h"

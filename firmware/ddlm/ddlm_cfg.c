@@ -88,8 +88,8 @@ static bool accept(const uint8_t XDATA *cfg, uint8_t len)
     return true;
 }
 
-/* In DATA_EXCH the configuration is only checked again; a different one that the application adapts to begins anew. Data
- * exchange ends before that: Data_Exchange is checked against the lengths that are about to change. */
+/* In DATA_EXCH the configuration is only checked again; a different one that the application adapts to begins
+ * anew. Data exchange ends before that: Data_Exchange is checked against the lengths that are about to change. */
 void ddlm_chk_cfg_ind(const struct fdl_ind XDATA *ind)
 {
     bool running = ddlm.state == DDLM_DATA_EXCH;

@@ -3,8 +3,8 @@
  *   Data_Exchange -> newest ----------------------------> ddlm_outputs()      Operate
  *   Data_Exchange -> held  -- Sync, Unsync --> newest --> ddlm_outputs()      Sync mode
  *
- * Global_Control is executed in the interrupt, in order with Data_Exchange, so that Sync and Freeze act on the data of
- * their moment however late the main loop is. Telegram buffers change hands by pointer.
+ * Global_Control is executed in the interrupt, in order with Data_Exchange, so that Sync and Freeze act on the
+ * data of their moment however late the main loop is. Telegram buffers change hands by pointer.
  * Source   EN 50170-2 part 8, Data_Exchange, Global_Control; spec A6; facts 3.6, 3.11
  */
 #include "ddlm/ddlm_priv.h"
@@ -40,7 +40,7 @@ static volatile bool sync_on;
 static volatile bool refused; /* a wrong length was seen: no more data exchange until the main loop has left it */
 static volatile uint8_t notes;
 
-/* ---- interrupt ------------------------------------------------------------------------------------------------------------ */
+/* ---- interrupt ------------------------------------------------------------------------------------------- */
 
 static void keep_outputs_isr(struct outputs XDATA *to) IN_ISR
 {
@@ -163,7 +163,7 @@ uint8_t fdl_ind_isr(void) IN_ISR
     }
 }
 
-/* ---- main loop ------------------------------------------------------------------------------------------------------------- */
+/* ---- main loop ------------------------------------------------------------------------------------------- */
 
 void ddlm_data_init(void)
 {

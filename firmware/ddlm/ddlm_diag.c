@@ -14,8 +14,9 @@ struct fdl_reply PAGED ddlm_diag_reply;
 static uint8_t XDATA rooms[3][FDL_ROOM(MAX_LEN)];
 static uint8_t XDATA diag[MAX_LEN];
 
-/* What is said to a master whose Set_Prm or Chk_Cfg has been acknowledged but not looked at yet: not ready, nothing wrong.
- * A master that polls faster than the main loop turns would otherwise read "parameters requested" and begin anew. */
+/* What is said to a master whose Set_Prm or Chk_Cfg has been acknowledged but not looked at yet: not ready,
+ * nothing wrong. A master that polls faster than the main loop turns would otherwise read "parameters requested"
+ * and begin anew. */
 static struct fdl_reply PAGED pending_reply;
 static uint8_t XDATA pending_rooms[3][FDL_ROOM(FIXED_LEN)];
 

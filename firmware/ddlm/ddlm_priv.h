@@ -5,7 +5,10 @@
 #include "ddlm/ddlm.h"
 
 /* Slave SAPs (spec A6). */
-enum ddlm_sap { SAP_SET_SLAVE_ADD = 55, SAP_RD_INP, SAP_RD_OUTP, SAP_GLOBAL_CONTROL, SAP_GET_CFG, SAP_SLAVE_DIAG, SAP_SET_PRM, SAP_CHK_CFG };
+enum ddlm_sap {
+    SAP_SET_SLAVE_ADD = 55, SAP_RD_INP, SAP_RD_OUTP, SAP_GLOBAL_CONTROL,
+    SAP_GET_CFG, SAP_SLAVE_DIAG, SAP_SET_PRM, SAP_CHK_CFG
+};
 
 /* Octet 1 and 2 of Slave_Diag. */
 #define DIAG_NOT_READY     0x02u

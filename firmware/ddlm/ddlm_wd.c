@@ -4,9 +4,9 @@
  *   BAUD_CONTROL  rate found (or fixed): nothing for us for 2 * WD_Baud_Control_Val * 10 ms -> search again
  *   DP_CONTROL    Set_Prm with WD_On: nothing from the owner for T_WD -> station to WAIT_PRM, outputs fail-safe
  *
- * The clock is restarted when the main loop sees that a telegram was heard, and the first millisecond it counts may be
- * almost over: so T_WD must have been passed, not reached. An expiry is never early, and late by at most 1 ms and
- * a turn of the main loop.
+ * The clock is restarted when the main loop sees that a telegram was heard, and the first millisecond it counts
+ * may be almost over: so T_WD must have been passed, not reached. An expiry is never early, and late by at most 1
+ * ms and a turn of the main loop.
  * Source   EN 50170-2 part 8, watchdog; facts 3.13
  */
 #include "ddlm/ddlm_priv.h"

@@ -33,27 +33,28 @@ static volatile IDATA uint8_t box_in;
 static volatile IDATA uint8_t box_out;
 
 /* The request being received. */
-static HOT uint8_t own;        /* not 0: a request to this station or to all */
-static HOT uint8_t unfit;      /* not 0: header or SAPs that no request to us can have */
-static HOT uint8_t to;         /* DA without its extension bit */
-static HOT uint8_t kind;    /* KIND_*, FDL_SDA, FDL_SDN, FDL_SRD; 0: no such   */
+static HOT uint8_t own;   /* not 0: a request to this station or to all            */
+static HOT uint8_t unfit; /* not 0: header or SAPs that no request to us can have   */
+static HOT uint8_t to;    /* DA without its extension bit                           */
+static HOT uint8_t kind;  /* KIND_*, FDL_SDA, FDL_SDN, FDL_SRD; 0: no such          */
 
 static HOT bool skip; /* telegrams of others are of no interest */
 
-/* Functions other than these are unknown to a responder and get no answer (our choice: 7, MSRD, and the clock functions
- * belong to DP-V2). */
+/* Functions other than these are unknown to a responder and get no answer (our choice: 7, MSRD, and the clock
+ * functions belong to DP-V2). */
 #define KIND_STATUS 0x40u
 #define KIND_HIGH   0x80u
 static const CODE uint8_t kinds[FDL_FC_FUNCTION + 1u] = {
-    [FDL_SDA_LOW] = FDL_SDA,         [FDL_SDN_LOW] = FDL_SDN,
-    [FDL_SDA_HIGH] = FDL_SDA | KIND_HIGH, [FDL_SDN_HIGH] = FDL_SDN | KIND_HIGH,
-    [FDL_STATUS] = KIND_STATUS,      [FDL_IDENT] = KIND_STATUS, [FDL_LSAP_STATUS] = KIND_STATUS,
-    [FDL_SRD_LOW] = FDL_SRD,         [FDL_SRD_HIGH] = FDL_SRD | KIND_HIGH,
+    [FDL_SDA_LOW] = FDL_SDA,    [FDL_SDA_HIGH] = FDL_SDA | KIND_HIGH,
+    [FDL_SDN_LOW] = FDL_SDN,    [FDL_SDN_HIGH] = FDL_SDN | KIND_HIGH,
+    [FDL_SRD_LOW] = FDL_SRD,    [FDL_SRD_HIGH] = FDL_SRD | KIND_HIGH,
+    [FDL_STATUS] = KIND_STATUS, [FDL_IDENT] = KIND_STATUS,            [FDL_LSAP_STATUS] = KIND_STATUS,
 };
 
-/* The last numbered request and its answer. A frame is a retry only if it is the same frame: FCV, same SA, same FCB and
- * octet-identical, for which length, header, the two octets behind it (SAPs) and FCS are compared. Masters that forget
- * to restart the FCB after a lost answer would otherwise be answered with stale data for ever (facts, section 0). */
+/* The last numbered request and its answer. A frame is a retry only if it is the same frame: FCV, same SA, same
+ * FCB and octet-identical, for which length, header, the two octets behind it (SAPs) and FCS are compared. Masters
+ * that forget to restart the FCB after a lost answer would otherwise be answered with stale data for ever (facts,
+ * section 0). */
 static struct {
     uint8_t len; /* 0: none */
     uint8_t da;
@@ -67,7 +68,7 @@ static struct {
     uint8_t turns;                 /* of reply, when the answer was built          */
 } IDATA last;
 
-/* ---- buffers --------------------------------------------------------------------------------------------------------- */
+/* ---- buffers --------------------------------------------------------------------------------------------- */
 
 static uint8_t XDATA *stock_take_isr(void) IN_ISR
 {
@@ -138,7 +139,7 @@ void fdl_poll(void)
     }
 }
 
-/* ---- answers --------------------------------------------------------------------------------------------------------- */
+/* ---- answers --------------------------------------------------------------------------------------------- */
 
 static void answer_isr(void) IN_ISR
 {
@@ -157,12 +158,12 @@ static void refuse_isr(uint8_t function) IN_ISR
     fdl_tx_fixed_isr(function);
 }
 
-/* ---- retries --------------------------------------------------------------------------------------------------------- */
+/* ---- retries --------------------------------------------------------------------------------------------- */
 
 static bool same_as_last_isr(void) IN_ISR
 {
-    return fdl_header.fc == last.fc && fdl_header.fcs == last.fcs && fdl_header.len == last.len && fdl_header.da == last.da &&
-           fdl_header.sa == last.sa && fdl_header.more[0] == last.more[0] && fdl_header.more[1] == last.more[1];
+    return fdl_header.fc == last.fc && fdl_header.fcs == last.fcs && fdl_header.len == last.len &&
+           fdl_header.da == last.da && fdl_header.sa == last.sa && fdl_header.more[0] == last.more[0] && fdl_header.more[1] == last.more[1];
 }
 
 static void remember_isr(void) IN_ISR
@@ -198,8 +199,8 @@ static void answer_again_isr(void) IN_ISR
     answer_isr();
 }
 
-/* True: a retry, answered again. Otherwise the FCB is stored: FCV = 0 with FCB = 1 starts the sequence, FCV = 1 goes on
- * with it; FCV = 0 with FCB = 0 is not numbered and starts a sequence of nobody's. */
+/* True: a retry, answered again. Otherwise the FCB is stored: FCV = 0 with FCB = 1 starts the sequence, FCV = 1
+ * goes on with it; FCV = 0 with FCB = 0 is not numbered and starts a sequence of nobody's. */
 static bool repeated_isr(void) IN_ISR
 {
     if ((fdl_header.fc & FDL_FC_FCV) && same_as_last_isr()) {
@@ -211,7 +212,7 @@ static bool repeated_isr(void) IN_ISR
     return false;
 }
 
-/* ---- services -------------------------------------------------------------------------------------------------------- */
+/* ---- services -------------------------------------------------------------------------------------------- */
 
 static struct fdl_sap PAGED *HOT row; /* of the request's SAP */
 
@@ -276,7 +277,7 @@ static void status_isr(uint8_t function) IN_ISR
     answer_isr();
 }
 
-/* ---- telegram -------------------------------------------------------------------------------------------------------- */
+/* ---- telegram -------------------------------------------------------------------------------------------- */
 
 bool fdl_header_isr(void) IN_ISR
 {
@@ -360,7 +361,7 @@ void fdl_other_isr(void) IN_ISR
     fdl_counters.foreign++;
 }
 
-/* ---- main loop ------------------------------------------------------------------------------------------------------- */
+/* ---- main loop ------------------------------------------------------------------------------------------- */
 
 uint8_t fdl_heard(void)
 {

@@ -36,8 +36,15 @@
 #define FDL_FC_FCB      0x20u
 #define FDL_FC_FCV      0x10u
 #define FDL_FC_FUNCTION 0x0Fu
-enum fdl_request { FDL_SDA_LOW = 3, FDL_SDN_LOW, FDL_SDA_HIGH, FDL_SDN_HIGH, FDL_STATUS = 9, FDL_SRD_LOW = 12, FDL_SRD_HIGH, FDL_IDENT, FDL_LSAP_STATUS };
-enum fdl_answer { FDL_OK = 0, FDL_UE = 1, FDL_RR = 2, FDL_RS = 3, FDL_DL = 8, FDL_NR = 9, FDL_DH = 10, FDL_RDL = 12, FDL_RDH = 13 };
+enum fdl_request {
+    FDL_SDA_LOW = 3, FDL_SDN_LOW, FDL_SDA_HIGH, FDL_SDN_HIGH,
+    FDL_STATUS = 9,
+    FDL_SRD_LOW = 12, FDL_SRD_HIGH, FDL_IDENT, FDL_LSAP_STATUS
+};
+enum fdl_answer {
+    FDL_OK = 0, FDL_UE = 1, FDL_RR = 2, FDL_RS = 3,
+    FDL_DL = 8, FDL_NR = 9, FDL_DH = 10, FDL_RDL = 12, FDL_RDH = 13
+};
 
 #define FDL_SAP_MAX 62u /* 63 is the global access address, which no slave activates */
 #define FDL_SAP_NIL 64u /* our choice: number of the default SAP, the one without address extension */
@@ -79,16 +86,18 @@ void fdl_read_counters(struct fdl_counters XDATA *to);
 uint8_t fdl_heard(void);
 
 /* true: telegrams to other stations are received to their end, checked and heard (FDL_HEARD_ANY); so it is after
- * fdl_reset(). false: the receiver stops at their header, and a fault in the rest of them is not counted. Half of a busy
- * bus is for others: on an 8-bit part that is half of its time. On a line that cannot show silence it has no effect. main. */
+ * fdl_reset(). false: the receiver stops at their header, and a fault in the rest of them is not counted. Half of
+ * a busy bus is for others: on an 8-bit part that is half of its time. On a line that cannot show silence it has
+ * no effect. main. */
 void fdl_listen(bool all);
 
 /* Whose telegrams count as FDL_HEARD_OWNER: 0..126, or FDL_ALL for nobody's. main. */
 void fdl_watch(uint8_t station);
 
-/* ---- main loop -------------------------------------------------------------------------------------------------- */
+/* ---- main loop ------------------------------------------------------------------------------------------- */
 
-/* All SAPs deactivated, counters and FCB state cleared, boxes emptied; answers from station address ts (0..126). main. */
+/* All SAPs deactivated, counters and FCB state cleared, boxes emptied; answers from station address ts (0..126).
+ * main. */
 void fdl_reset(uint8_t ts);
 
 /* Change of station address TS (0..126), after an answer that is still to be sent. main. */
@@ -111,7 +120,7 @@ struct fdl_ind {
 /* Implemented by the layer above: one indication of a SAP activated with FDL_TO_MAIN. Valid until return. main. */
 void fdl_data_ind(const struct fdl_ind XDATA *ind);
 
-/* ---- service access points ------------------------------------------------------------------------------------------ */
+/* ---- service access points ------------------------------------------------------------------------------- */
 
 /* An update buffer: the answer to the next SRD. Three rooms turn: one was sent last (and is kept for the master's
  * retry), one is ready, one is being written by the main loop.
@@ -135,11 +144,12 @@ struct fdl_reply {
     bool single;    /* Transmit = single: gone once sent                             */
 };
 
-/* Bind a reply to three rooms of FDL_ROOM(max) octets laid one after the other at rooms; empty. max 0..246; asked with
- * both SAPs, no more than 244 can be sent: UE. main. */
+/* Bind a reply to three rooms of FDL_ROOM(max) octets laid one after the other at rooms; empty. max 0..246; asked
+ * with both SAPs, no more than 244 can be sent: UE. main. */
 void fdl_reply_init(struct fdl_reply PAGED *reply, uint8_t XDATA *rooms, uint8_t max);
 
-/* Who deals with a request once FDL has checked station, service and length (the standard's Indication_mode, widened). */
+/* Who deals with a request once FDL has checked station, service and length (the standard's Indication_mode,
+ * widened). */
 enum fdl_handling {
     FDL_ANSWER_ONLY, /* nobody: answered from the reply buffer                      */
     FDL_TO_ISR,      /* fdl_ind_isr() decides, at once                              */
@@ -164,7 +174,12 @@ struct fdl_sap PAGED *fdl_sap_row_isr(uint8_t sap) IN_ISR;
 
 /* FDL_REPLY_UPDATE.request / .confirm -> enum fdl_l_status. The L_sdu is copied and will answer the next SRD to ssap,
  * with priority FDL_UPDATE_LOW or _HIGH, once (FDL_UPDATE_SINGLE) or until updated again. main. */
-enum fdl_l_status { FDL_L_OK, FDL_L_LS /* SAP not active or without reply */, FDL_L_LR /* too long for its room */, FDL_L_IV };
+enum fdl_l_status {
+    FDL_L_OK,
+    FDL_L_LS, /* SAP not active or without reply  */
+    FDL_L_LR, /* too long for its room            */
+    FDL_L_IV
+};
 #define FDL_UPDATE_LOW    0x00u
 #define FDL_UPDATE_HIGH   0x01u
 #define FDL_UPDATE_SINGLE 0x02u
@@ -177,16 +192,16 @@ void fdl_reply_write(struct fdl_reply PAGED *reply, const uint8_t XDATA *lsdu, u
 /* Make what was written last the next answer even under hold. isr. */
 void fdl_reply_release_isr(struct fdl_reply PAGED *reply) IN_ISR;
 
-/* ---- the request at hand, isr --------------------------------------------------------------------------------------- */
+/* ---- the request at hand, isr ---------------------------------------------------------------------------- */
 
 struct fdl_req {
     uint8_t service; /* FDL_SDA, FDL_SDN, FDL_SRD */
     uint8_t dsap;
     uint8_t ssap;
     uint8_t sa;
-    uint8_t sd3;     /* 0, 1 (no bool in HOT structs: see check.h): came as an SD3: our choice: then eight octets go back as an SD3, else as an SD2 as all
-                                 recorded stations do */
-    uint8_t len;              /* of lsdu; the telegram may have been longer: then it was refused */
+    uint8_t sd3;     /* 1: came as an SD3. our choice: then eight octets go back as an SD3, else as an SD2 as
+                      * all recorded stations do */
+    uint8_t len;     /* of lsdu; the telegram may have been longer: then it was refused */
     uint8_t XDATA *lsdu;
     struct fdl_reply PAGED *reply; /* what an SRD will be answered from: the SAP's, or what fdl_ind_isr() puts here */
 };
@@ -207,7 +222,8 @@ uint8_t XDATA *fdl_keep_isr(uint8_t XDATA *exchange) IN_ISR;
 /* Give a kept buffer back for good. main (locks). */
 void fdl_give_back(uint8_t XDATA *buffer);
 
-/* Set the answers to the Ident request: four strings behind four length octets (EN 50170-2 part 3, FMA1/2 Ident). main. */
+/* Set the answers to the Ident request: four strings behind four length octets (EN 50170-2 part 3, FMA1/2 Ident).
+ * main. */
 void fdl_set_ident(const uint8_t XDATA *data, uint8_t len);
 
 #endif

@@ -31,8 +31,8 @@ extern HOT struct fdl_header fdl_header;
 /* Forget what was being received. main with interrupts masked. */
 void fdl_rx_reset(void);
 
-/* Implemented by fdl.c: len, DA SA FC have been received, FCS not yet checked: nothing may be done that lasts. True: go
- * on; false: nobody here wants the rest, hear nothing until the next T_SYN. */
+/* Implemented by fdl.c: len, DA SA FC have been received, FCS not yet checked: nothing may be done that lasts.
+ * True: go on; false: nobody here wants the rest, hear nothing until the next T_SYN. */
 bool fdl_header_isr(void) IN_ISR;
 
 /* Implemented by fdl.c: the two octets behind the header are there, too. FCS not yet checked. */

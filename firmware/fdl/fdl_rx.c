@@ -36,8 +36,8 @@ void fdl_rx_reset(void)
     state = RX_SYN;
 }
 
-/* Two octets: at 187.5 kbit/s an 8-bit part has no time to look at each. Only the short acknowledge is shorter, and is
- * known by the silence behind it; where none can be seen, one octet must do. */
+/* Two octets: at 187.5 kbit/s an 8-bit part has no time to look at each. Only the short acknowledge is shorter,
+ * and is known by the silence behind it; where none can be seen, one octet must do. */
 static uint8_t wait_sd_isr(void) IN_ISR
 {
     phy_rx.at = fdl_rx_buf;

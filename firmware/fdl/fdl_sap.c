@@ -19,7 +19,7 @@ static uint8_t XDATA lsap_rooms[3][FDL_ROOM(LSAP_LEN)];
 static struct fdl_reply PAGED ident;
 static struct fdl_reply PAGED lsap;
 
-/* ---- activation ------------------------------------------------------------------------------------------------------ */
+/* ---- activation ------------------------------------------------------------------------------------------ */
 
 void fdl_sap_reset(void)
 {
@@ -94,7 +94,7 @@ bool fdl_sap_clear(uint8_t sap)
     return true;
 }
 
-/* ---- update buffers -------------------------------------------------------------------------------------------------- */
+/* ---- update buffers -------------------------------------------------------------------------------------- */
 
 void fdl_reply_init(struct fdl_reply PAGED *reply, uint8_t XDATA *rooms, uint8_t max)
 {
@@ -155,7 +155,7 @@ uint8_t fdl_reply_update(uint8_t ssap, const uint8_t XDATA *lsdu, uint8_t len, u
     return FDL_L_OK;
 }
 
-/* ---- Ident and LSAP status ------------------------------------------------------------------------------------------- */
+/* ---- Ident and LSAP status ------------------------------------------------------------------------------- */
 
 void fdl_set_ident(const uint8_t XDATA *data, uint8_t len)
 {
@@ -167,8 +167,9 @@ struct fdl_reply PAGED *fdl_ident_reply_isr(void) IN_ISR
     return &ident;
 }
 
-/* Service_type in the low half, Role_in_service in the high half: responder, or not activated. The two nibbles' values:
- * our choice where the clause could not be read; role 1 = responder, 3 = not activated; types as numbered there. */
+/* Service_type in the low half, Role_in_service in the high half: responder, or not activated. The two nibbles'
+ * values: our choice where the clause could not be read; role 1 = responder, 3 = not activated; types as numbered
+ * there. */
 #define ROLE_RESPONDER 0x10u
 #define ROLE_NONE      0x30u
 #define TYPE_SDA  0u

@@ -3,8 +3,9 @@
  *   room   | SD LE LEr SD DA SA FC DAE SAE | L_sdu ......... | FCS ED |
  *          |<------ FDL_ROOM_HEAD -------->|
  *
- * The header grows from the L_sdu towards the front, so that a frame without SAP octets, or an SD3, starts later in the
- * same room. At most nine octets are written before and two behind; the data are never moved and their sum is known.
+ * The header grows from the L_sdu towards the front, so that a frame without SAP octets, or an SD3, starts later
+ * in the same room. At most nine octets are written before and two behind; the data are never moved and their sum
+ * is known.
  *
  * Source   EN 50170-2 part 4, 4.7.1; answers of the responder part 4, 4.1.3; spec A3
  */

@@ -31,7 +31,11 @@ enum phy_baud {
 };
 
 /* PHY variables and what they may be (A2). */
-enum phy_variable { PHY_TRANSMITTER_OUTPUT, PHY_RECEIVED_SIGNAL_SOURCE, PHY_LOOP, PHY_BAUD_RATE, PHY_MEDIUM_RED, PHY_VARIABLES };
+enum phy_variable {
+    PHY_TRANSMITTER_OUTPUT, PHY_RECEIVED_SIGNAL_SOURCE, PHY_LOOP,
+    PHY_BAUD_RATE, PHY_MEDIUM_RED,
+    PHY_VARIABLES
+};
 enum phy_switch { PHY_DISABLED, PHY_ENABLED };
 enum phy_source { PHY_PRIMARY, PHY_ALTERNATE, PHY_RANDOM };
 enum phy_medium { PHY_NO_REDUNDANCY, PHY_BUS_A_HIGH, PHY_BUS_B_HIGH };
