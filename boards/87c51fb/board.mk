@@ -1,7 +1,9 @@
 # The 87C51FB board: 16 kB of EPROM, 32 kB of battery-backed RAM (the last 32 octets are the non-volatile ones).
 include firmware/hal/mcs51/image.mk
 
+FOSC ?= 12000000
 87c51fb_CONFIG := dp_test01.h
+87c51fb_CFLAGS := -DFOSC_HZ=$(FOSC)ul
 87c51fb_CODE   := 0x4000
 87c51fb_XRAM   := 0x7FE0
 87c51fb_HAL    := $(addprefix firmware/hal/mcs51/,machine.c serial.c silence.c held.c nv_ram.c con_none.c)

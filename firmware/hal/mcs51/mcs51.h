@@ -32,6 +32,7 @@ extern volatile __bit locked; /* main holds upcalls back */
 /* ---- serial.c: octets in and out ---- */
 extern volatile __bit sending;
 extern volatile __bit burst;        /* octets are so short that the interrupt stays for the whole telegram  */
+extern volatile __bit polled;       /* bits are so short that the interrupt stays for the whole answer       */
 extern volatile __bit deaf;         /* nobody wants octets: each one only sets back the clock of silence    */
 extern volatile __bit eager;        /* the next octet begins a burst                                         */
 extern HOT uint8_t octet;           /* the octet received last                                              */

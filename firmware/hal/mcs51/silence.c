@@ -113,7 +113,7 @@ static void silence_ind_isr(void) __using(2)
     armed = 0;
     line_silence_isr();
     look_isr();
-    if (sending && burst)
+    if (sending && polled)
         send_burst_isr();
 }
 

@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+"""DP-TEST01 on the 87C51FB, in the simulator s51: answers, their timing to the machine cycle, parity, the driver.
+
+usage: s51_dp.py [--figures]     the table of figures alone
+
+Expected telegrams are worked out by hand: address 5, master 2, EN 50170-2 part 8; FCS is the sum modulo 256.
+A request that gets no answer is repeated, as a master does (max_retry); how often that was needed is printed.
+"""
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "sim" / "s51"))
+import chip as s51  # noqa: E402
+
+IMAGE = str(ROOT / "build" / "87c51fb" / "fieldling-dp.ihx")
+STATUS = "10 05 02 49 50 16"
+DIAG_FIRST = "68 05 05 68 85 82 6D 3C 3E EE 16"
+DIAG = "68 05 05 68 85 82 5D 3C 3E DE 16"
+SET_PRM = "68 0C 0C 68 85 82 5D 3D 3E 80 01 01 0B 12 34 00 B2 16"
+CHK_CFG = "68 09 09 68 85 82 7D 3E 3E 10 20 10 20 60 16"
+DX_7D = "68 05 05 68 05 02 7D 11 22 B7 16"
+DX_5D = "68 05 05 68 05 02 5D 33 44 DB 16"
+FOREIGN = "68 05 05 68 84 82 6D 3C 3E ED 16"
+# the process inputs of the simulated board read back its outputs
+SCENE = [
+    ("FDL status", STATUS, "10 02 05 00 07 16"),
+    ("Slave_Diag", DIAG_FIRST, "68 0B 0B 68 82 85 08 3E 3C 02 05 00 FF 12 34 D5 16"),
+    ("Set_Prm", SET_PRM, "E5"),
+    ("Chk_Cfg", CHK_CFG, "E5"),
+    ("Slave_Diag", DIAG, "68 0B 0B 68 82 85 08 3E 3C 00 04 00 02 12 34 D5 16"),
+    ("Data_Exchange", DX_7D, "68 05 05 68 02 05 08 00 00 0F 16"),
+    ("Data_Exchange", DX_5D, "68 05 05 68 02 05 08 11 22 42 16"),
+]
+# divisor of Timer 2 at 12 MHz: rate, longest T_SDR [T_bit] this image keeps (budget)
+RATES = {39: (9600, 60), 4: (93750, 130)}
+RETRIES = 3
+
+results = []
+
+
+def check(name, good, detail=""):
+    results.append(bool(good))
+    if not good:
+        print(f"{name}:FAIL: {detail}")
+
+
+def octets(text):
+    return bytes.fromhex(text)
+
+
+def ask(chip, request):
+    """-> (exchange, repeats)"""
+    for repeats in range(RETRIES + 1):
+        exchange = chip.ask(octets(request), idle=12000)
+        if exchange.answer:
+            break
+    return exchange, repeats
+
+
+def parity(octet):
+    return bin(octet).count("1") & 1
+
+
+def timing(rate, n, name, exchange):
+    """T_SDR and gap of an answer, in T_bit and machine cycles."""
+    bit = n * 8 / 3
+    turn = exchange.turn / bit
+    gap = max(exchange.gaps(11 * bit), default=0)
+    check(f"{name} at {rate}: T_SDR", 11 <= turn <= RATES[n][1], f"{turn:.1f} T_bit")
+    # the real part raises TI one bit earlier: what is written within a bit time leaves no gap
+    check(f"{name} at {rate}: gap", gap < bit, f"{gap:.0f} cycles of {bit:.0f}")
+    check(f"{name} at {rate}: parity", exchange.parity == [parity(o) for o in exchange.answer], exchange.parity)
+    check(f"{name} at {rate}: driver", [on for _, on in exchange.driver] == [1, 0], exchange.driver)
+    return turn, gap
+
+
+def scene(n):
+    rate = RATES[n][0]
+    with s51.Chip(IMAGE) as chip:
+        chip.wait_for_rate(n)
+        for name, request, answer in SCENE:
+            exchange, repeats = ask(chip, request)
+            check(f"{name} at {rate}", exchange.answer == octets(answer),
+                  f"{exchange.answer.hex(' ')} instead of {answer.lower()}")
+            if not exchange.written:
+                continue
+            turn, gap = timing(rate, n, name, exchange)
+            print(f"{rate:6d}  {name:14s} T_SDR {turn:6.1f} T_bit   TI to next octet {gap:4.0f} cycles   repeats {repeats}")
+        silent(chip, rate)
+        share(chip, n, rate)
+
+
+def silent(chip, rate):
+    """Nobody answers for another station; an octet with wrong parity drops the telegram, and the next is heard."""
+    exchange = chip.ask(octets(FOREIGN), idle=12000)
+    check(f"a telegram for another station at {rate}", not exchange.answer, exchange.answer.hex(" "))
+    chip.spoil(4)
+    exchange = chip.ask(octets(STATUS), idle=12000)
+    check(f"wrong parity at {rate}", not exchange.answer, exchange.answer.hex(" "))
+    exchange, _ = ask(chip, STATUS)
+    check(f"the telegram after wrong parity at {rate}", exchange.answer == octets("10 02 05 02 09 16")
+          or exchange.answer == octets("10 02 05 00 07 16"), exchange.answer.hex(" "))
+
+
+def share(chip, n, rate):
+    """Of the main loop, under Data_Exchange and under foreign telegrams that follow each other closely."""
+    for name, requests in (("Data_Exchange", (DX_7D, DX_5D)), ("foreign", (FOREIGN, FOREIGN))):
+        before = chip.times()
+        for request in requests * 4:
+            chip.ask(octets(request), idle=20)
+        after = chip.times()
+        left = 1 - (after[1] - before[1]) / (after[0] - before[0])
+        check(f"main loop under {name} at {rate}", left > 0.02, f"{left:.0%}")
+        print(f"{rate:6d}  {name:14s} back to back: {left:.0%} of the time is left to the main loop")
+
+
+def main():
+    for n in RATES:
+        scene(n)
+    failed = results.count(False)
+    print("-----------------------")
+    print(f"{len(results)} Tests {failed} Failures 0 Ignored")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

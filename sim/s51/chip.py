@@ -1,0 +1,178 @@
+"""An image in the simulator s51 (uCsim), its serial port in our hands, time in machine cycles.
+
+The simulated time does not depend on the host: a telegram is put into the receiver's FIFO while the simulation stands,
+and what happens is written down by the simulator itself, at the instruction where it happens.
+
+What s51 0.6.4 does not model is supplied or corrected here:
+  ninth bit   RB8 of a received octet is set by a script at the moment RI is written: even parity, or wrong on purpose;
+              TB8 of a sent octet is noted when SBUF is written
+  input       is looked at every million instructions unless uart0_check_often is set
+  RI, TI      come at the end of the character; on the real part RI comes half a bit and TI one bit earlier
+"""
+import os
+import re
+import select
+import shutil
+import subprocess
+import tempfile
+import time
+
+CLOCKS = 12  # a machine cycle
+PARITY = ("^".join(f"(uart0_received_char>>{n})" for n in range(8))).join(("(", ")&1"))
+RI_BIT, P3_2_BIT, SBUF = 0x98, 0xB2, 0x99
+
+
+class Stuck(Exception):
+    """The simulator said nothing in time, or never came to where it was sent."""
+
+
+def symbols(image):
+    """Global labels in code of the image's map file."""
+    found = {}
+    with open(image.replace(".ihx", ".map")) as lines:
+        for line in lines:
+            match = re.match(r"\s*C:\s*([0-9A-F]{8})\s+_(\w+)", line)
+            if match:
+                found[match[2]] = int(match[1], 16)
+    return found
+
+
+class Exchange:
+    """What happened between a request and the silence after it; times in machine cycles."""
+
+    def __init__(self, octets, answer):
+        self.answer = answer
+        self.arrived = [t for kind, value, t in octets if kind == "RI" and value == 1]
+        self.fetched = [t for kind, value, t in octets if kind == "RI" and value == 0]
+        self.written = [t for kind, _, t in octets if kind == "TX"]
+        self.parity = [value for kind, value, _ in octets if kind == "TX"]
+        self.driver = [(t, value) for kind, value, t in octets if kind == "DE"]
+
+    @property
+    def turn(self):
+        """End of the last octet of the request to the first octet of the answer."""
+        before = [t for t in self.arrived if t < self.written[0]]
+        return self.written[0] - before[-1]
+
+    def gaps(self, octet_cycles):
+        """Between the end of each octet sent and the write of the next."""
+        return [b - a - octet_cycles for a, b in zip(self.written, self.written[1:])]
+
+
+class Chip:
+    def __init__(self, image, mhz=12, switches=5):
+        self.image, self.symbols = image, symbols(image)
+        self.folder = tempfile.mkdtemp(prefix="s51-")
+        self.to_chip, self.from_chip = (os.path.join(self.folder, name) for name in ("in", "out"))
+        os.mkfifo(self.to_chip)
+        os.mkfifo(self.from_chip)
+        # both opened for both directions: opening never blocks, and there is no end of file
+        self.input = os.open(self.to_chip, os.O_RDWR)
+        self.output = os.open(self.from_chip, os.O_RDWR | os.O_NONBLOCK)
+        self.process = subprocess.Popen(
+            ["s51", "-t", "52", "-X", f"{mhz}M", "-b", "-P", "-S", f"in={self.to_chip},out={self.from_chip}", image],
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, bufsize=0)
+        self.count, self.breaks, self.text, self.log = 0, 0, b"", []
+        self.command("uart0_check_often=1")
+        self.command("var spoil")
+        self.watch(f"bits w 0x{RI_BIT:x}", f"spoil=spoil-RI;RB8=({PARITY})^(spoil==0);expr /d 810000+RI;expr /d sim_ticks")
+        self.watch(f"sfr w 0x{SBUF:x}", "expr /d 820000+TB8;expr /d sim_ticks")
+        self.command(f"set mem sfr 0x90 0x{~switches & 0x7f | 0x80:x}")
+
+    def close(self):
+        self.process.kill()
+        self.process.wait()
+        os.close(self.input)
+        os.close(self.output)
+        shutil.rmtree(self.folder)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    # ---- console ----
+
+    def command(self, text, seconds=60):
+        """Say something to the simulator -> what it answered."""
+        self.count += 1
+        mark = 770000000 + self.count
+        self.process.stdin.write(f"{text}\nexpr /d {mark}\n".encode())
+        end, found = time.monotonic() + seconds, f"\n{mark}\n".encode()
+        while found not in self.text:
+            if not select.select([self.process.stdout], [], [], max(0, end - time.monotonic()))[0]:
+                raise Stuck(self.text[-300:].decode(errors="replace"))
+            data = os.read(self.process.stdout.fileno(), 65536)
+            if not data:
+                raise Stuck("s51 has ended")
+            self.text += data.replace(b"\0", b"")
+        answer, self.text = self.text.split(found, 1)
+        return re.sub(r"Simulation started.*\n", "", answer.decode(errors="replace"))
+
+    def value(self, expression):
+        return int(re.findall(r"^(-?\d+)$", self.command(f"expr /d {expression}"), re.M)[-1])
+
+    def watch(self, event, script):
+        self.command(f"commands {self.break_at(event)} {script};go")
+
+    def break_at(self, event):
+        """-> the breakpoint's number: they are counted, and not always told."""
+        self.breaks += 1
+        self.command(f"break {event}")
+        return self.breaks
+
+    @property
+    def cycles(self):
+        return self.value("sim_ticks") // CLOCKS
+
+    def run_to(self, label, seconds=60):
+        """Run until the function label is entered; what happened meanwhile is in self.log."""
+        address = self.symbols[label]
+        number = self.break_at(f"0x{address:x}")
+        self.take_log(self.command("run", seconds))
+        self.command(f"delete {number}")
+
+    def spoil(self, number):
+        """The number-th octet from now (1..) comes with wrong parity."""
+        self.value(f"spoil={number}")
+
+    def step(self, instructions):
+        """Nothing that is watched may happen meanwhile: it would turn the step into a run."""
+        self.take_log(self.command(f"step {instructions}"))
+
+    def take_log(self, text):
+        kinds = {81: "RI", 82: "TX", 83: "DE"}
+        for code, ticks in re.findall(r"^(8[123]000[01])\n(\d+)$", text, re.M):
+            self.log.append((kinds[int(code) // 10000], int(code) % 10, int(ticks) / CLOCKS))
+
+    def times(self):
+        """(all, in interrupts) since the start, machine cycles."""
+        text = self.command("timer get")
+        clocks = {name: int(n) for name, n in re.findall(r'\("(\w+)"\).*\((\d+) clks\)', text)}
+        return clocks["time"] / CLOCKS, clocks["isr"] / CLOCKS
+
+    # ---- the line ----
+
+    def wait_for_rate(self, n):
+        """Until the baud search has come to Timer 2's divisor n and the line has been silent for T_SYN."""
+        for _ in range(400):
+            if self.value("T2CON") == 0x34 and self.value("RCAP2L") == 256 - n:
+                break
+            self.step(4000)
+        else:
+            raise Stuck(f"no rate with N = {n}")
+        self.run_to("phy_syn_ind_isr")
+        self.watch(f"bits w 0x{P3_2_BIT:x}", "expr /d 830000+((P3>>2)&1);expr /d sim_ticks")
+
+    def ask(self, request, idle=40):
+        """Send request idle instructions from now, run until T_SYN of silence after it and its answer."""
+        self.step(idle)
+        self.log = []
+        os.write(self.input, request)
+        self.run_to("phy_syn_ind_isr")
+        try:
+            answer = os.read(self.output, 4096)
+        except BlockingIOError:
+            answer = b""
+        return Exchange(self.log, answer)
