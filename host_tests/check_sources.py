@@ -7,6 +7,7 @@ usage: check_sources.py FILE ...
   down    #include points down only: phy_uart < fdl < ddlm and modbus, hdlc beside them; protocol folders know
           neither boards nor sim nor a port's own headers; the simulation shares no code with the firmware
   path    no absolute path of a developer's machine
+  heap    protocol code allocates no memory
   sleep   unit tests do not wait in host time
   bool    a struct in internal RAM (HOT) has no bool member: SDCC 4.2 forgets to store a comparison into it
 """
@@ -27,6 +28,7 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')
 # The port in virtual time is the simulation's way to a station; everything else of the firmware is not its business.
 SIM_MUST_NOT = re.compile(r"(firmware/)?(fdl|ddlm|modbus|hdlc|phy_uart|hal/(?!posix/))/|(firmware/)?(bytes|crc16|config)\.h")
 CONDITIONAL = re.compile(r"^\s*#\s*(if|ifdef|ifndef|elif|else)\b")
+HEAP = re.compile(r"\b(malloc|calloc|realloc|free|alloca)\s*\(")
 SLEEP = re.compile(r"\b(sleep|usleep|nanosleep|clock_nanosleep)\s*\(")
 
 
@@ -73,6 +75,8 @@ def check(path):
         problem = include and include_problem(path, include.group(1))
         if problem:
             yield where + problem
+        if layer and HEAP.search(line):
+            yield where + "memory is allocated"
         if unit_test and SLEEP.search(line):
             yield where + "a unit test waits in host time"
 

@@ -85,11 +85,13 @@ static void one_and_two_bits(void)
 
 static void three_random_bits(unsigned n, uint64_t random)
 {
-    while (n--) {
+    while (n) {
         const unsigned a = sim_below(&random, bits), b = sim_below(&random, bits),
                        c = sim_below(&random, bits);
-        if (a != b && b != c && a != c)
-            turn(a, b, c);
+        if (a == b || b == c || a == c)
+            continue;
+        turn(a, b, c);
+        n--;
     }
 }
 
