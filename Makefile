@@ -22,6 +22,7 @@
 #   BENCHES      += bench-x             a target, run by `make bench`, one after the other
 #   SIZES        += size-x              a target, run by `make size`
 #   run-dp, run-modbus                  targets behind `make run PROTOCOL=...`
+#   run-board-X                         target behind `make run BOARD=X`
 #
 # Tests see TEST_FULL=1 in the environment when run by `make test`: then they use their big random counts.
 
@@ -119,7 +120,7 @@ ASAN_PROGRAMS  := $(addprefix build/asan/,$(PROGRAMS))
 TEST_PROGRAMS  := $(addprefix build/test/,$(UNIT_TESTS))
 ASAN_TESTS     := $(addprefix build/asan/,$(UNIT_TESTS))
 
-.PHONY: all setup run test check asan bench size clean help build-tests build-asan boards static \
+.PHONY: all setup run flash test check asan bench size clean help build-tests build-asan boards static \
         $(BENCHES) $(SIZES) $(STATIC)
 
 all: $(POSIX_PROGRAMS)
@@ -130,7 +131,10 @@ setup:
 
 run: setup
 	@$(MAKE) --no-print-directory $J all
-	@$(MAKE) --no-print-directory run-$(PROTOCOL)
+	@$(MAKE) --no-print-directory $(if $(BOARD),run-board-$(BOARD),run-$(PROTOCOL))
+
+flash:
+	@$(MAKE) --no-print-directory flash-$(or $(BOARD),which-board)
 
 build-tests: $(POSIX_PROGRAMS) $(TEST_PROGRAMS)
 	@:
@@ -168,8 +172,10 @@ clean:
 help:
 	@echo "make                     every host program into build/posix/ (needs gcc, nothing else)"
 	@echo "make setup               install what tests and demos need; says what it does, quick when all is there"
-	@echo "make run PROTOCOL=dp     live demonstration: a station and a master on a simulated bus (dp, modbus)"
+	@echo "make run PROTOCOL=dp     live demonstration: a station and a master on a simulated bus (dp, modbus, hdlc)"
 	@echo "make run STATIONS=8      so many stations and one master on a segment of pseudo terminals (1 to 14)"
+	@echo "make run BOARD=com86     the same with a board in QEMU as the station (com86, lm3s6965evb)"
+	@echo "make flash BOARD=bluepill  program a board"
 	@echo "make check               unit tests, 8051 and Cortex-M compile, static checks: under a minute"
 	@echo "make asan                the unit tests again, by clang with AddressSanitizer and UBSan"
 	@echo "make test                everything: all boards, sanitizers, foreign masters; ends in N passed, N failed"

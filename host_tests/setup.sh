@@ -9,7 +9,7 @@ say() { echo "setup: $*"; }
 # ---- packages of the distribution -------------------------------------------------------------------------
 PACKAGES="gcc libc6-dev make python3 python3-venv
 sdcc sdcc-ucsim clang clang-format valgrind socat pkg-config
-gcc-arm-none-eabi libnewlib-arm-none-eabi libmodbus-dev mbpoll
+qemu-system-x86 qemu-system-arm gcc-arm-none-eabi libnewlib-arm-none-eabi libmodbus-dev mbpoll
 tshark libncurses-dev sigrok-cli librsvg2-bin"
 
 # Only where there is no Rust yet; Debian 12's is new enough.

@@ -55,3 +55,25 @@ UNIT_TESTS += f2808_modbus
 f2808_modbus_SRC      = $(filter-out boards/common/main_modbus.c boards/common/line_console.c,$(CONSOLE_MODBUS)) $(F2808_PORT)
 f2808_modbus_DEFAULTS = $(MODBUS_DEFAULTS)
 f2808_modbus_CFLAGS   = $(F2808_CFLAGS) -DMB_CONFIG='"inverter_mb.h"'
+
+# ---- make run BOARD=..., make flash BOARD=... --------------------------------------------------------------------------------
+
+.PHONY: flash-which-board
+run-board-%: build/posix/fieldling-master
+	@$(MAKE) --no-print-directory build/$*/fieldling-dp.$(call qemu_suffix,$*)
+	@python3 host_tests/run_board.py $*
+
+flash-which-board:
+	@echo "make flash BOARD=bluepill" >&2; exit 1
+
+# ---- what the boards take --------------------------------------------------------------------------------------------------------
+
+GCC_IMAGES := $(foreach i,fieldling-dp fieldling-modbus,build/com86/$i.bin build/lm3s6965evb/$i.elf build/bluepill/$i.bin)
+SCRIPT_TESTS_ONCE += host_tests/budget.py
+SIZES   += size-boards
+BENCHES += bench-boards
+size-boards: $(GCC_IMAGES)
+	@python3 host_tests/budget.py
+bench-boards: $(GCC_IMAGES)
+	@arm-none-eabi-size build/lm3s6965evb/fieldling-*.elf build/bluepill/fieldling-*.elf
+	@python3 host_tests/budget.py --table
