@@ -50,9 +50,9 @@ fieldling-hdlc_DEFAULTS = $(HDLC_DEFAULTS)
 
 PROGRAMS += fieldling-hdlc-master
 HDLC_SCREEN := $(if $(wildcard /usr/include/ncurses.h /usr/include/*/ncurses.h),master_screen.c,master_screen_none.c)
-fieldling-hdlc-master_SRC      = $(addprefix boards/posix/,fieldling_hdlc_master.c master_commands.c master_config.c report.c \
-                                 hdlc_line.c options.c $(HDLC_SCREEN)) sim/hdlc_primary.c firmware/hdlc/hdlc_8273.c $(HDLC_CHIP) \
-                                 $(HAL_REALTIME)
+fieldling-hdlc-master_SRC      = $(addprefix boards/posix/,fieldling_hdlc_master.c master_commands.c master_config.c \
+                                 report.c hdlc_line.c options.c $(HDLC_SCREEN)) sim/hdlc_primary.c \
+                                 firmware/hdlc/hdlc_8273.c $(HDLC_CHIP) $(HAL_REALTIME)
 fieldling-hdlc-master_LDLIBS   = $(if $(filter master_screen.c,$(HDLC_SCREEN)),-lncurses)
 
 PROGRAMS += fieldling-hdlc-cable
@@ -67,8 +67,8 @@ host_tests/hdlc_host.py_TIMEOUT = 300
 
 # 31 modules on one line, in virtual time.
 PROGRAMS += fieldling-hdlc-scan
-fieldling-hdlc-scan_SRC      = boards/posix/fieldling_hdlc_scan.c $(REMOTE_MODULE) $(HDLC_SRC) $(HDLC_BUS) sim/hdlc_primary.c \
-                               boards/posix/options.c
+fieldling-hdlc-scan_SRC      = boards/posix/fieldling_hdlc_scan.c $(REMOTE_MODULE) $(HDLC_SRC) $(HDLC_BUS) \
+                               sim/hdlc_primary.c boards/posix/options.c
 fieldling-hdlc-scan_DEFAULTS = $(HDLC_DEFAULTS)
 
 BENCHES += bench-hdlc
@@ -97,4 +97,5 @@ size-hdlc: $(foreach t,$(HDLC_IMAGES),build/87c51fb_hdlc/module-$t.ihx)
 STATIC += check-hdlc-contexts
 .PHONY: check-hdlc-contexts
 check-hdlc-contexts: build/87c51fb_hdlc/module-ai.ihx
-	@python3 host_tests/check_contexts.py --sources firmware --sources boards $$(find build/87c51fb_hdlc/module-ai -name '*.asm')
+	@python3 host_tests/check_contexts.py --sources firmware --sources boards \
+	    $$(find build/87c51fb_hdlc/module-ai -name '*.asm')

@@ -45,8 +45,8 @@ class S51:
             with socket.socket() as s:
                 s.bind(("127.0.0.1", 0))
                 port = s.getsockname()[1]
-            self.process = subprocess.Popen(["s51", "-t", "C52", "-X", "12M", "-b", "-p", PROMPT.decode(), "-Z", str(port),
-                                             image], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+            command = ["s51", "-t", "C52", "-X", "12M", "-b", "-p", PROMPT.decode(), "-Z", str(port), image]
+            self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                             stderr=subprocess.DEVNULL)
             self.socket = self._connect(port)
             if self.socket:
@@ -325,8 +325,9 @@ def test_images_are_within_the_budget():
         code = int(re.search(r"ROM/EPROM/FLASH\s+\S+\s+\S+\s+(\d+)", text).group(1))
         xram = int(re.search(r"EXTERNAL RAM\s+\S+\s+\S+\s+(\d+)", text).group(1))
         stack = int(re.search(r"with (\d+) bytes available", text).group(1))
-        print(f"  module-{kind}: code {code} of {limits['code']}, external RAM {xram} of {limits['xram']}, stack {stack}")
-        assert code <= limits["code"] and xram <= limits["xram"] and stack >= limits["stack_min"], (kind, code, xram, stack)
+        print(f"  module-{kind}: code {code} of {limits['code']}, external RAM {xram} of {limits['xram']}, "
+              f"stack {stack}")
+        assert code <= limits["code"] and xram <= limits["xram"] and stack >= limits["stack_min"], (kind, code, xram)
 
 
 def serve(board, fd, stop):
@@ -337,7 +338,8 @@ def serve(board, fd, stop):
             drove = board.exchange([octet >> i & 1 for octet in octets for i in range(8)], 700)
             if drove:
                 drove += [1] * (-len(drove) % 8)
-                os.write(fd, bytes(sum(bit << i for i, bit in enumerate(drove[k:k + 8])) for k in range(0, len(drove), 8)))
+                octets = [drove[k:k + 8] for k in range(0, len(drove), 8)]
+                os.write(fd, bytes(sum(bit << i for i, bit in enumerate(octet)) for octet in octets))
         else:
             board.bits_pass(72)
 
@@ -351,9 +353,9 @@ def with_master(kind, module, commands):
         with tempfile.NamedTemporaryFile("w", suffix=".conf") as conf:
             conf.write(f"timeout 8000\nmodule m 7 {kind} {module}\n")
             conf.flush()
-            master = subprocess.Popen([os.path.join(BIN, "fieldling-hdlc-master"), "--line", os.ttyname(theirs), "--config",
-                                       conf.name, "--batch", "90", "--json"], stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                      text=True)
+            command = [os.path.join(BIN, "fieldling-hdlc-master"), "--line", os.ttyname(theirs), "--config", conf.name,
+                       "--batch", "90", "--json"]
+            master = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
             master.stdin.write(commands + "quit\n")
             master.stdin.close()
             try:

@@ -97,7 +97,8 @@ def test_unusable_arguments_end_with_one_line_and_status_2():
         for text, place in (("", ":0:"), ("module a 1 di\n", ":1:"), ("# c\nmodule a 31 di 100\n", ":2:"),
                             ("module a 1 xx 100\n", ":1:"), ("module a 1 di 100 channels 0-16\n", ":1:"),
                             ("module a 1 ai 100 channels 0\n", ":1:"), ("module a 1 di 1\nmodule b 1 di 1\n", ":2:"),
-                            ("module a 1 di 1\nmodule a 2 di 1\n", ":2:"), ("timeout x\n", ":1:"), ("speed 3\n", ":1:")):
+                            ("module a 1 di 1\nmodule a 2 di 1\n", ":2:"), ("timeout x\n", ":1:"),
+                            ("speed 3\n", ":1:")):
             with open(conf, "w", encoding="ascii") as f:
                 f.write(text)
             said = refused(MASTER, "--line", "pty:" + folder + "/x", "--config", conf, "--batch", "1")
@@ -149,8 +150,8 @@ class Plant:
         conf = os.path.join(self.folder, "conf")
         with open(conf, "w", encoding="ascii") as f:
             f.write(config)
-        return subprocess.Popen([MASTER, "--line", f"pty:{self.folder}/master", "--config", conf, "--batch", str(seconds),
-                                 "--json"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
+        command = [MASTER, "--line", f"pty:{self.folder}/master", "--config", conf, "--batch", str(seconds), "--json"]
+        return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
     def master(self, config, commands, seconds=60):
         process = self.start_master(config, seconds)
@@ -186,6 +187,42 @@ def test_master_and_four_modules():
         known = [v is not None for v in last["ain"]["values"]]
         assert known == [True, True, False, False, False, True], known
         assert None not in last["in"]["values"]
+
+
+def test_a_master_directly_on_a_module_in_both_codings():
+    for coding in ("bits", "octets"):
+        with Station("fieldling-hdlc", "--type", "ao", "--address", "5", "--coding", coding) as s:
+            conf = os.path.join(s.folder, "conf")
+            with open(conf, "w", encoding="ascii") as f:
+                f.write("module m 5 ao 200\n")
+            command = [MASTER, "--line", s.pty, "--config", conf, "--coding", coding, "--batch", "30", "--json"]
+            # 7E7DH holds both octets that the coding must escape, and is refused; 0F7EH is a value
+            r = subprocess.run(command, input="set m 1 32381\nset m 2 3966\nquit\n", capture_output=True, text=True,
+                               timeout=4 * PATIENCE, check=False)
+            events = [json.loads(line) for line in r.stdout.splitlines()]
+            assert r.returncode == 0, (coding, events)
+            assert pick(events, "control", channel=1, outcome="refused", reason="value"), (coding, events)
+            assert pick(events, "control", channel=2, outcome="done", value=3966), (coding, events)
+            assert s.ask("out")["out"] == "0,3966,0,0,0,0"
+
+
+def test_the_master_builds_without_ncurses():
+    sources = ["boards/posix/" + name for name in ("fieldling_hdlc_master.c", "master_screen_none.c", "master_commands.c",
+               "master_config.c", "report.c", "hdlc_line.c", "options.c")]
+    sources += ["sim/" + name for name in ("hdlc_primary.c", "i8273.c", "i8273_line.c", "hdlc_bits.c")]
+    sources += ["firmware/hal/posix/" + name for name in ("hal_8273_model.c", "hal_realtime.c", "line_pty.c",
+                                                          "line_tty.c", "nv_file.c", "con_stdio.c")]
+    with Station("fieldling-hdlc", "--type", "do", "--address", "1") as s:
+        program, conf = os.path.join(s.folder, "master"), os.path.join(s.folder, "conf")
+        subprocess.run(["gcc", "-std=c99", "-D_DEFAULT_SOURCE", "-I.", "-Ifirmware", "-Ifirmware/hal/posix",
+                        "-Iboards/common", *sources, "firmware/hdlc/hdlc_8273.c", "-o", program], check=True)
+        with open(conf, "w", encoding="ascii") as f:
+            f.write("module m 1 do 100\n")
+        said = refused(program, "--line", s.pty, "--config", conf)
+        assert "built without a screen" in said and "--batch" in said
+        r = subprocess.run([program, "--line", s.pty, "--config", conf, "--batch", "2"], stdin=subprocess.DEVNULL,
+                           capture_output=True, text=True, timeout=PATIENCE, check=False)
+        assert r.returncode == 0 and "online=1" in r.stdout, r.stdout
 
 
 def test_document_mode():
@@ -232,7 +269,8 @@ def test_a_module_switched_off_and_on_again():
 
 
 def test_controls_are_carried_out_once_on_a_bad_line():
-    commands = "wait 1000\n" + "".join(f"set out {k % 16} {k // 16 % 2}\n" for k in range(1, 61)) + "wait 200\ndiag out\nquit\n"
+    controls = "".join(f"set out {k % 16} {k // 16 % 2}\n" for k in range(1, 61))
+    commands = "wait 1000\n" + controls + "wait 200\ndiag out\nquit\n"
     with Plant("do 2", cable=("--rate", "0", "--bit-errors", "700", "--seed", "5")) as p:
         events, _ = p.master("timeout 60\nmisses 20\nmodule out 2 do 1000\n", commands)
         done = pick(events, "control", module="out")
@@ -305,8 +343,8 @@ UNNUMBERED = {0x03: "UI", 0x07: "RIM", 0x0F: "DM", 0x23: "UP", 0x33: "UP", 0x43:
 def dissect(path):
     """-> [(control, text)] of every frame, as tshark reads it"""
     fields = ["-e", "sdlc.address", "-e", "sdlc.control", "-e", "_ws.col.Info"]
-    r = subprocess.run(["tshark", "-r", path, "--disable-protocol", "sna", "-T", "fields", *fields], capture_output=True,
-                       text=True, timeout=6 * PATIENCE, check=True)
+    r = subprocess.run(["tshark", "-r", path, "--disable-protocol", "sna", "-T", "fields", *fields],
+                       capture_output=True, text=True, timeout=6 * PATIENCE, check=True)
     rows = [line.split("\t") for line in r.stdout.splitlines()]
     return [(int(control, 16), info) for _, control, info in rows]
 

@@ -145,8 +145,8 @@ static void nothing(void)
 
 static void report(const char *what)
 {
-    printf("%s: %u errors of 1..3 bits in %u line bits; %u lines were right frames, %u of them control commands\n", what,
-           tally.cases, clean.n, tally.right, tally.controls);
+    printf("%s: %u errors of 1..3 bits in %u line bits; %u lines were right frames, %u of them control commands\n",
+           what, tally.cases, clean.n, tally.right, tally.controls);
 }
 
 /* 75 bits: C(75,1) + C(75,2) + C(75,3) and so on: every pattern was tried. */
@@ -206,8 +206,8 @@ static void test_a_damaged_line_that_is_a_right_frame_is_seen(void)
     TEST_ASSERT_EQUAL(1, tally.controls);
 }
 
-/* A command without information, 49 and 48 line bits: damaged, it neither connects nor disconnects, unless it is a right
- * frame. */
+/* A command without information, 49 and 48 line bits: damaged, it neither connects nor disconnects, unless it is a
+ * right frame. */
 static uint8_t state;
 static unsigned right_before;
 

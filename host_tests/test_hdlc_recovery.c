@@ -46,8 +46,12 @@ static void init(void)
 
 static struct hp_module *start(uint8_t as, bool document, uint32_t scan_ms, const struct hm_plan *plan, unsigned plans)
 {
-    const struct hp_module module = {.name = "m", .address = 5, .type = (enum hp_type)as, .document = document,
-                                     .scan_ms = scan_ms, .channels = 0xFFFF};
+    const struct hp_module module = {.name = "m",
+                                     .address = 5,
+                                     .type = (enum hp_type)as,
+                                     .document = document,
+                                     .scan_ms = scan_ms,
+                                     .channels = 0xFFFF};
     type = as;
     done = refused = not_sent = unknown = 0;
     last_trouble[0] = 0;

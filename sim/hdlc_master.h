@@ -6,13 +6,13 @@
 #include "sim/hdlc_primary.h"
 
 /* What happens to a frame, with its reason in the field. */
-#define HM_FAULTS(F)                                                                                           \
-    F(NONE, "a good line")                                                                                     \
-    F(LOST, "a bad contact: the frame does not arrive")                                                        \
-    F(BIT, "a spike turns a bit")                                                                              \
-    F(CUT, "the sender is reset: the rest is missing")                                                         \
-    F(SLIP, "the receiver's clock slips: a bit is missing")                                                    \
-    F(TWICE, "an echo on a repeater: an answer comes twice (a command: collides with its answer, not tried)")      \
+#define HM_FAULTS(F)                                                                                                   \
+    F(NONE, "a good line")                                                                                             \
+    F(LOST, "a bad contact: the frame does not arrive")                                                                \
+    F(BIT, "a spike turns a bit")                                                                                      \
+    F(CUT, "the sender is reset: the rest is missing")                                                                 \
+    F(SLIP, "the receiver's clock slips: a bit is missing")                                                            \
+    F(TWICE, "an echo on a repeater: an answer comes twice (a command: collides with its answer, not tried)")          \
     F(LATE, "a modem that stores: a copy of an answer comes when the next command is already out")
 
 enum hm_fault {

@@ -9,7 +9,7 @@
  *   INT0, INT1  RxINT, TxINT of the 8273, inverted
  *   /RTS        driver enable of the RS-485 transceiver; receiver enable tied to it; /CTS and /CD active
  *   P1.0..P1.4  address switches, closed = 1      P1.7  watchdog: an edge kicks
- *   Timer 2     clock-out 230.77 kHz = 32 * 7211.5 bit/s for the 8273's DPLL (+0.16 %)
+ *   clock       7200 bit/s (or 32 times it for the DPLL) from outside: README.md
  */
 #ifndef WIRING_H
 #define WIRING_H

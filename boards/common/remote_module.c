@@ -24,7 +24,7 @@ static struct {
     uint8_t n, answer_n, index;
 } rq;
 
-/* ---- values --------------------------------------------------------------------------------------------------- */
+/* ---- values -------------------------------------------------------------------------------------------- */
 
 static bool is_analog(void)
 {
@@ -99,7 +99,7 @@ void rm_tick_isr(void) IN_ISR
     }
 }
 
-/* ---- functions ---------------------------------------------------------------------------------------------------- */
+/* ---- functions ----------------------------------------------------------------------------------------- */
 
 /* I2 -> rq.index: digital 00..0F, analog 01..06. */
 static uint8_t take_channel(void)
@@ -223,7 +223,7 @@ static uint8_t diagnosis(void)
     }
 }
 
-/* ---- the table ------------------------------------------------------------------------------------------------------ */
+/* ---- the table ----------------------------------------------------------------------------------------- */
 
 struct row {
     uint8_t function;
@@ -287,7 +287,7 @@ uint8_t hdlc_info_ind(const uint8_t XDATA *info, uint8_t n, uint8_t XDATA *answe
     return rm_execute(info, n, answer, false);
 }
 
-/* ---- the module ------------------------------------------------------------------------------------------------------- */
+/* ---- the module ---------------------------------------------------------------------------------------- */
 
 /* our choice: nobody in charge, so the outputs are safe; in the document's mode nobody ever says he is, and they
  * keep what they were told. */

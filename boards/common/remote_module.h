@@ -13,8 +13,8 @@
  *   04 samples        DI AI   04 ch max              04 ch lost.16 first.16 k sample_1..sample_k
  *
  * Samples: oldest first, taken out of the log; each as in function 01 (one or two octets); first = running number
- * of the first one, lost = how many were overwritten before it since the last fetch (FFFF: or more); max 00 = as many as fit;
- * k = 0: the log is empty. I-frames are never lost or doubled, so the master gets each sample once.
+ * of the first one, lost = how many were overwritten before it since the last fetch (FFFF: or more); max 00 = as many
+ * as fit; k = 0: the log is empty. I-frames are never lost or doubled, so the master gets each sample once.
  *
  * Negative answer in I-frames, our choice: function + 80H, ch (00 if there was none), reason (enum rm_reason). In the
  * document's mode: silence and a counter. In both no output has changed.

@@ -218,7 +218,7 @@ static const struct console_command commands[] = {
 
 /* ---- the program --------------------------------------------------------------------------------- */
 
-/* The sampling timer. hal_ticks() wraps: count the milliseconds here. A host that was stopped for long makes up for it. */
+/* The sampling timer. hal_ticks() wraps: count the milliseconds here. A host that was stopped makes up for it. */
 static void sample_when_due(void)
 {
     static uint16_t last;

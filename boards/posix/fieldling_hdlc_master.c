@@ -63,9 +63,10 @@ static const char *take_json(const char *value)
 
 static const struct option_row options[] = {
     {"line", "LINE", "a module's pseudo terminal, or pty:PATH: a fresh one for fieldling-hdlc-cable", take_line},
-    {"config", "FILE", "the modules: boards/posix/hdlc_demo.conf is an example, boards/posix/master_config.h the manual",
-     take_config},
-    {"coding", "CODING", "what octets on the pty are: bits (default) or octets, see fieldling-hdlc --help", take_coding},
+    {"config", "FILE",
+     "the modules: boards/posix/hdlc_demo.conf is an example, boards/posix/master_config.h the manual", take_config},
+    {"coding", "CODING", "what octets on the pty are: bits (default) or octets, see fieldling-hdlc --help",
+     take_coding},
     {"batch", "SECONDS", "no screen: events on standard output, commands from standard input, end after so long",
      take_batch},
     {"json", NULL, "with --batch: each event a JSON object", take_json},

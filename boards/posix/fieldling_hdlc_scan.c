@@ -2,7 +2,8 @@
  * against what the line's bit rate allows.
  *
  * Each module is a process of its own (a station's state is static), with its own 8273 and its own virtual time. They
- * run in lockstep by pieces of the line (a module's main loop takes no time): a piece is a command of the primary, the answer of one module, or silence.
+ * run in lockstep by pieces of the line (a module's main loop takes no time): a piece is a command of the primary,
+ * the answer of one module, or silence.
  * Every module hears every piece, bit by bit, and says what it drove meanwhile: if another one spoke, it shows. */
 #include "boards/posix/options.h"
 #include "hal/hal.h"
@@ -264,8 +265,8 @@ static void start_modules(void)
         int fd[2];
         type = document ? RM_DI : types[i % 4u];
         address = (uint8_t)i;
-        struct hp_module m = {.address = address, .type = (enum hp_type)type, .document = document, .scan_ms = 1,
-                              .channels = 1};
+        struct hp_module m = {
+            .address = address, .type = (enum hp_type)type, .document = document, .scan_ms = 1, .channels = 1};
         if (socketpair(AF_UNIX, SOCK_SEQPACKET, 0, fd) != 0 || !hp_add(&primary, &m))
             exit(1);
         fflush(stdout);
@@ -304,8 +305,8 @@ int main(int argc, char **argv)
     unsigned online = 0, polls;
     uint64_t bits, busy;
 
-    options_read(argc, argv, "fieldling-hdlc-scan: 31 remote modules on one line at 7200 bit/s, in virtual time", options,
-                 "");
+    options_read(argc, argv, "fieldling-hdlc-scan: 31 remote modules on one line at 7200 bit/s, in virtual time",
+                 options, "");
     hp_init(&primary);
     primary.send = take_command;
     start_modules();

@@ -50,9 +50,9 @@ static unsigned u16(const uint8_t *at)
 
 static void report_diagnosis(const uint8_t *a, unsigned n)
 {
-    static const char *const line_keys[] = {"good",     "crc",       "abort",    "idle",     "short",    "overrun",
-                                            "sent",     "underrun",  "restarts", "delivered", "sequence", "resent",
-                                            "rejected", "inactive",  "executed", "refused",  "safe"};
+    static const char *const line_keys[] = {"good",     "crc",      "abort",    "idle",      "short",    "overrun",
+                                            "sent",     "underrun", "restarts", "delivered", "sequence", "resent",
+                                            "rejected", "inactive", "executed", "refused",   "safe"};
 
     if (a[1] == 0 && n == 12) {
         report_number("type", a[2]);

@@ -1,7 +1,7 @@
 /* Driver of the Intel 8273: frames in, frames out; flags, zero insertion and FCS are the chip's.
  *
  * Layer    hal_8273 -> [hdlc_8273] -> hdlc_nrm; implements chip_rx_isr, chip_tx_isr
- * Source   register map, commands and results of the 8273: DESIGN.md, sources. Where they disagree the driver
+ * Source   register map, commands and results of the 8273: README.md, sources. Where they disagree the driver
  *          depends on neither side; each such place says so.
  * Half duplex: the receiver is off while we send (but in loop-back), so our own frame never comes back as a command.
  * Nothing here waits for the line. Waiting for the chip is bounded by HDLC_8273_POLLS reads of its status;

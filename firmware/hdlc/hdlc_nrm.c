@@ -57,7 +57,7 @@ static void set_state(uint8_t state)
     hdlc_state_ind(state);
 }
 
-/* ---- answers: one frame, F = 1, our own address (ISO 13239 6.4.2) --------------------------------------------- */
+/* ---- answers: one frame, F = 1, our own address (ISO 13239 6.4.2) -------------------------------------- */
 
 static void send(uint8_t control, const uint8_t XDATA *info, uint8_t n)
 {
@@ -108,7 +108,7 @@ static void answer(void)
     send(numbered((uint8_t)(((nrm.vs - 1u) & 7u) << 1)), out[nrm.first].info, out[nrm.first].n);
 }
 
-/* ---- receiving N(R), I, and what must be rejected ----------------------------------------------------------------- */
+/* ---- receiving N(R), I, and what must be rejected ------------------------------------------------------ */
 
 static bool nr_is_valid(uint8_t nr)
 {
@@ -191,7 +191,7 @@ static void information(void)
         answer();
 }
 
-/* ---- one function per state --------------------------------------------------------------------------------------------- */
+/* ---- one function per state ---------------------------------------------------------------------------- */
 
 /* SNRM and DISC where they are the same: NRM and frame reject. our choice: without P they are ignored, we could not
  * say that we obeyed. -> it was one of them. */
@@ -286,7 +286,7 @@ static void state_frj(void)
         hdlc_nrm_counters.unanswered++;
 }
 
-/* ---- frames and time ---------------------------------------------------------------------------------------------------- */
+/* ---- frames and time ----------------------------------------------------------------------------------- */
 
 /* our choice: of the commands to a group only UI is carried out; nobody may answer, so nothing that needs an answer
  * makes sense. */

@@ -2,7 +2,7 @@
  *
  * Layer    hdlc_8273 -> [hdlc_nrm] -> application (boards/common/remote_module.c)
  * Context  main for everything in this file
- * Source   ISO 13239 5 and 6 as told in DESIGN.md, sources; "our choice:" where those leave one
+ * Source   ISO 13239 5 and 6 as told in README.md, sources; "our choice:" where those leave one
  *
  * In short: hdlc_nrm_init(), then hdlc_nrm_poll() for ever. The *_ind functions are called from there; all but
  * hdlc_info_ind have defaults in the library.
