@@ -129,7 +129,10 @@ all: $(POSIX_PROGRAMS)
 setup:
 	@sh host_tests/setup.sh
 
-run: setup
+# A board runs on the test machinery; the host's own demonstrations need a compiler, and HDLC's picture a library.
+run:
+	@$(if $(BOARD),sh host_tests/setup.sh,$(if $(filter hdlc,$(PROTOCOL)),sh host_tests/setup.sh libncurses-dev &&) \
+	    { command -v gcc >/dev/null || sh host_tests/setup.sh gcc libc6-dev; })
 	@$(MAKE) --no-print-directory $J all
 	@$(MAKE) --no-print-directory $(if $(BOARD),run-board-$(BOARD),run-$(PROTOCOL))
 

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Install what `make run`, `make check` and `make test` need; `make` alone needs gcc only.
+# usage: setup.sh             what `make check`, `make test` and `make run BOARD=...` need
+#        setup.sh PACKAGE ... only these packages of the distribution: what `make run` needs
 # Says what it installs, does nothing when all is there. Everything but the apt packages goes below build/.
 set -eu
 cd "$(dirname "$0")/.."
@@ -23,11 +24,9 @@ clang_runtime() {
     [ -z "$version" ] || echo "libclang-rt-$version-dev"
 }
 
-install_packages() {
-    PACKAGES="$PACKAGES $(clang_runtime)"
-    find_cargo >/dev/null || PACKAGES="$PACKAGES cargo"
+install_packages() { # PACKAGE ...
     missing=
-    for package in $PACKAGES; do
+    for package; do
         status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
         [ "$status" = installed ] || missing="$missing $package"
     done
@@ -107,8 +106,14 @@ install_gsdtool() {
 }
 
 mkdir -p build
+if [ $# -gt 0 ]; then
+    command -v apt-get >/dev/null 2>&1 && install_packages "$@"
+    exit 0
+fi
 if command -v apt-get >/dev/null 2>&1; then
-    install_packages
+    find_cargo >/dev/null || PACKAGES="$PACKAGES cargo"
+    # shellcheck disable=SC2046,SC2086 # lists
+    install_packages $PACKAGES $(clang_runtime)
 else
     say "no apt-get here: please provide by hand: $(echo "$PACKAGES" | tr '\n' ' ')"
 fi
