@@ -105,10 +105,13 @@ def test_lm3s6965evb_driver_pin_is_on_for_the_answer_only():
     with Machine("lm3s6965evb", "fieldling-dp", trace=("pl061_set_output",)) as machine:
         with RawMaster(machine.pty) as master:
             master.wait_for_answer(*STATUS_3)
-        machine.process.terminate()
-        machine.process.wait()
-        with open(machine.events) as file:
-            levels = re.findall(r"pl061_set_output .* setting output (\d) to (\d)", file.read())
+
+        def levels_seen():
+            with open(machine.events) as file:
+                return re.findall(r"pl061_set_output .* setting output (\d) to (\d)", file.read())
+
+        machine.wait(lambda: levels_seen()[-1:] == [("4", "0")], "the driver off")
+        levels = levels_seen()
     expect("driver went on and off", levels[:2], [("4", "1"), ("4", "0")])
     expect("driver is off at the end", levels[-1], ("4", "0"))
 
