@@ -149,12 +149,12 @@ static void answer_isr(void) IN_ISR
 
 void phy_cancelled_ind_isr(void) IN_ISR
 {
-    fdl_counters.cancelled++;
+    fdl_count_isr(&fdl_counters.cancelled);
 }
 
 static void refuse_isr(uint8_t function) IN_ISR
 {
-    fdl_counters.refused++;
+    fdl_count_isr(&fdl_counters.refused);
     fdl_tx_fixed_isr(function);
 }
 
@@ -204,7 +204,7 @@ static void answer_again_isr(void) IN_ISR
 static bool repeated_isr(void) IN_ISR
 {
     if ((fdl_header.fc & FDL_FC_FCV) && same_as_last_isr()) {
-        fdl_counters.retries++;
+        fdl_count_isr(&fdl_counters.retries);
         answer_again_isr();
         return true;
     }
@@ -271,7 +271,7 @@ static void status_isr(uint8_t function) IN_ISR
     } else if (function == FDL_STATUS) {
         fdl_tx_status_isr(FDL_OK);
     } else {
-        fdl_counters.refused++;
+        fdl_count_isr(&fdl_counters.refused);
         fdl_tx_status_isr(FDL_RS);
     }
     answer_isr();
@@ -335,12 +335,12 @@ void fdl_telegram_isr(void) IN_ISR
 {
     heard |= FDL_HEARD_ANY;
     if (!own) {
-        fdl_counters.foreign++;
+        fdl_count_isr(&fdl_counters.foreign);
         return;
     }
     check_header_isr();
     if (unfit) {
-        fdl_counters.format++;
+        fdl_count_isr(&fdl_counters.format);
         return;
     }
     fdl_counters.requests++;
@@ -353,12 +353,12 @@ void fdl_telegram_isr(void) IN_ISR
     else if (kind == KIND_STATUS)
         status_isr(fdl_header.fc & FDL_FC_FUNCTION);
     else
-        fdl_counters.format++;
+        fdl_count_isr(&fdl_counters.format);
 }
 
 void fdl_other_isr(void) IN_ISR
 {
-    fdl_counters.foreign++;
+    fdl_count_isr(&fdl_counters.foreign);
 }
 
 /* ---- main loop ------------------------------------------------------------------------------------------- */

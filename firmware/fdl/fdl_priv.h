@@ -28,6 +28,9 @@ struct fdl_header {
 };
 extern HOT struct fdl_header fdl_header;
 
+/* One more of these. */
+void fdl_count_isr(uint16_t XDATA *count) IN_ISR;
+
 /* Forget what was being received. main with interrupts masked. */
 void fdl_rx_reset(void);
 

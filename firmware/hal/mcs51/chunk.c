@@ -91,6 +91,65 @@ void take_isr(void) __using(2)
     look_isr();
 }
 
+/* Held octets into the chunk, until one of them is at its end. */
+static void pour_isr(void) __using(2) __naked
+{
+    __asm
+        mov dpl,_phy_rx
+        mov dph,(_phy_rx + 1)
+        mov r7,(_phy_rx + 2)
+        mov r6,(_phy_rx + 3)
+        mov r0,#_held_in
+        mov a,@r0
+        mov r5,a
+        mov r0,#_held_out
+        mov a,@r0
+        mov r4,a
+        add a,#_held
+        mov r1,a
+    00001$:
+        mov a,r4
+        xrl a,r5
+        jz 00002$
+        mov a,@r1
+        movx @dptr,a
+        add a,r6
+        mov r6,a
+        inc dptr
+        inc r1
+        inc r4
+        djnz r7,00001$
+    00002$:
+        mov @r0,ar4
+        mov _phy_rx,dpl
+        mov (_phy_rx + 1),dph
+        mov (_phy_rx + 2),r7
+        mov (_phy_rx + 3),r6
+        ret
+    __endasm;
+}
+
+/* What has waited is caught up with chunk by chunk; then the burst goes on where the line is. */
+void serve_octets_isr(void) __using(2)
+{
+    while (held_octet_isr()) {
+        store_isr();
+        while (burst && phy_rx.left && !phy_rx.waiting && held_out != held_in) {
+            pour_isr();
+            if (phy_rx.left == 0)
+                phy_chunk_ind_isr();
+            if (RI) {
+                receive_isr();
+                hold_octet_isr();
+            }
+        }
+    }
+    held_any = 0;
+    look_isr();
+    if (eager)
+        burst_isr();
+}
+
 void look_isr(void) __using(2)
 {
     deaf = 0;

@@ -8,17 +8,15 @@
 
 #include "hal/mcs51/mcs51.h"
 
-#define HELD_MAX 24u
-
 volatile __bit held_any;
 static volatile __bit silence_first;
 static volatile __bit silence_last;
 static volatile __bit sent;
 
-/* Invariant: out <= in <= HELD_MAX. */
-static IDATA uint8_t held[HELD_MAX];
-static IDATA uint8_t in;
-static IDATA uint8_t out;
+/* Invariant: held_out <= held_in <= HELD_MAX. */
+IDATA uint8_t held[HELD_MAX];
+IDATA uint8_t held_in;
+IDATA uint8_t held_out;
 static IDATA uint8_t err; /* behind the octets; what follows it is not kept */
 
 /* A silence that was reported late and cut short by this octet was none. */
@@ -30,18 +28,18 @@ void hold_octet_isr(void) __using(2)
         return;
     if (octet_err) {
         err = octet_err;
-    } else if (in == HELD_MAX) {
+    } else if (held_in == HELD_MAX) {
         err = HAL_ERR_OVERRUN;
     } else {
-        held[in] = octet;
-        in++;
+        held[held_in] = octet;
+        held_in++;
     }
 }
 
 void hold_silence_isr(void) __using(2)
 {
     held_any = 1;
-    if (in || err)
+    if (held_in || err)
         silence_last = 1;
     else
         silence_first = 1;
@@ -59,8 +57,8 @@ void held_drop_isr(void) IN_ISR
     silence_first = 0;
     silence_last = 0;
     sent = 0;
-    in = 0;
-    out = 0;
+    held_in = 0;
+    held_out = 0;
     err = 0;
 }
 
@@ -71,16 +69,16 @@ bool held_octet_isr(void) __using(2)
         receive_isr();
         hold_octet_isr();
     }
-    if (out != in) {
-        octet = held[out];
-        out++;
+    if (held_out != held_in) {
+        octet = held[held_out];
+        held_out++;
         octet_err = 0;
         return true;
     }
     octet_err = err;
     err = 0;
-    in = 0;
-    out = 0;
+    held_in = 0;
+    held_out = 0;
     return octet_err != 0;
 }
 
@@ -100,8 +98,7 @@ void held_serve_isr(void) __using(2)
         silence_first = 0;
         silence_isr();
     }
-    while (held_octet_isr())
-        take_isr();
+    serve_octets_isr();
     held_any = 0;
     if (silence_last) {
         silence_last = 0;

@@ -61,10 +61,15 @@ void hold_silence_isr(void) __using(2); /* line_silence_isr() is due    */
 void hold_sent_isr(void) __using(2);    /* line_sent_isr() is due       */
 void held_drop_isr(void) IN_ISR;
 bool held_octet_isr(void) __using(2);   /* the next one into octet, octet_err; false: no more */
+#define HELD_MAX 24u
+extern IDATA uint8_t held[HELD_MAX];    /* for chunk.c: octets held_out..held_in-1 wait       */
+extern IDATA uint8_t held_in;
+extern IDATA uint8_t held_out;
 void held_serve_isr(void) __using(2);
 
 /* ---- chunk.c (phy_uart) or octet.c (any other stack): who takes octets ---- */
 void take_isr(void) __using(2); /* octet, octet_err: to the stack                         */
+void serve_octets_isr(void) __using(2); /* all that held_octet_isr() gives */
 void burst_isr(void) __using(2); /* RI is set: this octet and those that follow, until there is no more to do */
 void look_isr(void) __using(2); /* after any other upcall: does the stack want octets now?          */
 

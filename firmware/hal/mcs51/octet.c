@@ -6,6 +6,12 @@ void take_isr(void) __using(2)
     line_octet_isr(octet, octet_err);
 }
 
+void serve_octets_isr(void) __using(2)
+{
+    while (held_octet_isr())
+        take_isr();
+}
+
 void burst_isr(void) __using(2)
 {
 }
