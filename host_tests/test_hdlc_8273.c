@@ -452,10 +452,13 @@ static void test_a_chip_left_in_the_middle_of_a_command_is_set_up(void)
             hal_8273_write(HAL_8273_COMMAND, 0xC1); /* four parameters */
             for (uint8_t i = 0; i < given; i++)
                 hal_8273_write(HAL_8273_PARAMETER, 0xFF);
+            hal_8273_chip.port_b = 0;
             mode = 0;
             hbus_station(init, hdlc_nrm_poll);
             hbus_run(20);
             ANSWERS((0x05, 0x93), (0x05, 0x73));
+            if (!reset_at_1)
+                TEST_ASSERT_EQUAL_HEX8(0x3F, hal_8273_chip.port_b); /* it was a reset, not only commands */
         }
     }
 }

@@ -373,6 +373,18 @@ static void test_diagnosis_stuck_outputs(void)
     FAULTS(0x08, 0x08, 0x0020);
 }
 
+static void test_an_output_that_settles_is_not_stuck(void)
+{
+    start(RM_DO);
+    board.stuck_bits = board.stuck_at = 0x0104;
+    for (unsigned k = 0; k < 2 * 16; k++) /* every output was looked at twice */
+        rm_poll();
+    TEST_ASSERT_EQUAL_HEX8(0, rm_faults());
+    for (unsigned k = 0; k < 16; k++)
+        rm_poll();
+    TEST_ASSERT_EQUAL_HEX8(RM_FAULT_OUTPUT, rm_faults());
+}
+
 static void test_diagnosis_line_counters(void)
 {
     struct hb_line bad = {0};
@@ -418,6 +430,7 @@ int main(void)
     RUN_TEST(test_diagnosis_program);
     RUN_TEST(test_diagnosis_converter);
     RUN_TEST(test_diagnosis_stuck_outputs);
+    RUN_TEST(test_an_output_that_settles_is_not_stuck);
     RUN_TEST(test_diagnosis_line_counters);
     RUN_TEST(test_xid_says_what_it_is);
     return UNITY_END();
