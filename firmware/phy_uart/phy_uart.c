@@ -101,6 +101,8 @@ void line_silence_isr(void) IN_ISR
     if (phy_rx.waiting) {
         phy_rx.waiting = false;
         line.sending = true;
+        if (value_of[PHY_LOOP] == PHY_DISABLED)
+            phy_rx.left = 0; /* what is heard now is not for us */
         hal_send(answer, answer_len);
     } else if (!line.sending) {
         phy_syn_ind_isr();
