@@ -66,6 +66,31 @@ run-board-%: build/posix/fieldling-master
 flash-which-board:
 	@echo "make flash BOARD=bluepill" >&2; exit 1
 
+# ---- what a station takes without board and application -----------------------------------------------------------------
+
+# The stack and the defaults of its callbacks as objects, before linking: what an application does not call is counted too;
+# the port, libgcc and mem*() are not. Buffers are those of DP-TEST01 (dp_test01.h) and of the inverter (inverter_mb.h).
+STACK_CPUS     := cortex-m0 cortex-m3
+STACK_dp       := $(DP_ALL)
+STACK_dp_OPTIONS     := -DFIELDLING_CONFIG='"dp_test01.h"'
+STACK_modbus   := firmware/crc16.c $(wildcard firmware/modbus/*.c)
+STACK_modbus_OPTIONS := -DMB_CONFIG='"inverter_mb.h"'
+define stack_objects # CPU,STACK
+stack-$1_CC := $(subst -mcpu=cortex-m3,-mcpu=$1,$(lm3s6965evb_CC))
+$(call image_set,stack-$1,$2,$(STACK_$2_OPTIONS))
+STACK_OBJECTS_$1_$2 := $(call image_objects,stack-$1,$2,$(STACK_$2))
+STACK_OBJECTS += $(call image_objects,stack-$1,$2,$(STACK_$2))
+endef
+$(foreach c,$(STACK_CPUS),$(foreach s,dp modbus,$(eval $(call stack_objects,$c,$s))))
+
+.PHONY: bench-stack
+BENCHES += bench-stack
+bench-stack: $(STACK_OBJECTS)
+	@echo "The stack alone, -Os, before linking, without port and application; .text with constants:"
+	@printf '  %-10s %-8s %7s %7s %7s\n' "" "" .text .data .bss
+	@$(foreach c,$(STACK_CPUS),$(foreach s,dp modbus,arm-none-eabi-size -t $(STACK_OBJECTS_$c_$s) | \
+	    awk '/TOTALS/ { printf "  %-10s %-8s %7d %7d %7d\n", "$c", "$s", $$1, $$2, $$3 }';))
+
 # ---- what the boards take --------------------------------------------------------------------------------------------------------
 
 GCC_IMAGES := $(foreach i,fieldling-dp fieldling-modbus,build/com86/$i.bin build/lm3s6965evb/$i.elf build/bluepill/$i.bin)
