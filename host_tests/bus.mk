@@ -45,8 +45,10 @@ SCRIPT_TESTS_ONCE += host_tests/sigrok.py
 # ---- master for people ----------------------------------------------------------------------------------------
 
 PROGRAMS += fieldling-master
-fieldling-master_SRC = $(addprefix sim/,fieldling_master.c master_ask.c master_cyclic.c master_line.c master_say.c \
-                                        master_setup.c gsd_read.c port.c) $(SIM_MASTER)
+fieldling-master_SRC = $(addprefix sim/,fieldling_master.c master_ask.c master_cyclic.c master_keys.c master_line.c master_say.c \
+                                        master_setup.c gsd_read.c port.c) $(SIM_MASTER) \
+                       $(addprefix boards/posix/,dp_sim_line.c dp_sim_view.c dp_words.c) $(SIM_SEGMENT) $(DP_STATION)
+fieldling-master_DEFAULTS = $(DP_DEFAULTS)
 
 SCRIPT_TESTS += host_tests/dp_master.py host_tests/gsd_pyprofibus.py
 

@@ -1,4 +1,4 @@
-/* fieldling-master: a DP master for people, class 1 and class 2, on a pty or serial line. */
+/* fieldling-master: a DP master for people, class 1 and class 2, on a pty, serial line or simulated segment. */
 #include "sim/master.h"
 
 #include <errno.h>
@@ -23,6 +23,9 @@ static const char help[] = "fieldling-master: a PROFIBUS-DP master.\n"
                            "  set-address STATION NEW IDENT [lock]\n"
                            "\n"
                            "  --line PATH            pty or serial line\n"
+                           "  --line sim:[N]         a simulated segment in this process, DP-TEST01 on it at "
+                           "N (8); virtual time,\n"
+                           "                         paced to real time; the slot time is the standard's\n"
                            "  --rate N               bit/s (500000)\n"
                            "  --address N            of this master (2)\n"
                            "  --slot MS              how long an answer may take to begin (30)\n"

@@ -15,6 +15,7 @@
 volatile bool master_stop;
 
 static struct master_line *line;
+static const struct ml_view *view; /* NULL: the line shows nothing of its own */
 static struct setup *setup;
 static struct dp_master m;
 static const struct master_options *opt;
@@ -140,6 +141,11 @@ static void read_commands(void)
         input_ended = true;
         return;
     }
+    if (master_interrupted(text + n, (size_t)got)) {
+        putchar('\n'); /* behind the echo */
+        master_stop = true;
+        return;
+    }
     n += (size_t)got;
     text[n] = '\0';
     char *end, *at = text;
@@ -169,13 +175,24 @@ static double ms(uint64_t ticks)
     return (double)ticks / ML_MS;
 }
 
+#define WRAP_OFF "\033[?7l" /* the live table is as many lines as it has, on a narrow terminal, too */
+#define WRAP_ON  "\033[?7h"
+
 /* The live table is drawn over itself, so it must not be longer than the terminal. */
 static unsigned rows_that_fit(void)
 {
     struct winsize w;
-    if (!live || ioctl(STDOUT_FILENO, TIOCGWINSZ, &w) != 0 || w.ws_row < 6)
+    const unsigned others = 4u + (view ? view->lines : 0);
+    if (!live || ioctl(STDOUT_FILENO, TIOCGWINSZ, &w) != 0 || w.ws_row < others + 2u)
         return m.slaves_n;
-    return m.slaves_n < w.ws_row - 4u ? m.slaves_n : w.ws_row - 4u;
+    return m.slaves_n < w.ws_row - others ? m.slaves_n : w.ws_row - others;
+}
+
+void master_make_room(void)
+{
+    if (rows)
+        printf("\033[%uF\033[J", rows);
+    rows = 0;
 }
 
 static void table(void)
@@ -201,9 +218,14 @@ static void table(void)
 
 static void show_live(void)
 {
-    if (rows)
-        printf("\033[%uF\033[J", rows);
+    master_make_room();
+    printf(WRAP_OFF);
     table();
+    if (view) {
+        view->below();
+        rows += view->lines;
+    }
+    printf(WRAP_ON);
     fflush(stdout);
 }
 
@@ -235,13 +257,13 @@ static void show_changes(void)
 
 static void show(uint64_t now)
 {
-    static uint64_t next;
+    static uint64_t shown;
     if (opt->json)
         return;
-    if (!live)
+    if (!live && !view)
         show_changes();
-    else if (now >= next)
-        next = now + REFRESH, show_live();
+    else if (now >= shown + (live ? REFRESH : SECOND))
+        shown = now, live ? show_live() : view->second();
 }
 
 static int summary(void)
@@ -277,9 +299,11 @@ static int summary(void)
         say_number("strange", m.ini.strange);
         say_text("longest_cycle_ms", "%.3f", ms(cycle_max));
         say_end();
-    } else if (!live) {
+    } else if (!live && !view) {
         table();
     }
+    if (view)
+        all = view->end(all, opt->json);
     return all ? M_OK : M_REFUSED;
 }
 
@@ -311,10 +335,13 @@ int master_cyclic(struct master_line *l, struct setup *s, const struct ini *ini,
 {
     uint64_t next_control = 0;
     line = l;
+    view = l->kind->view;
     setup = s;
     opt = o;
     clear = o->clear;
     live = !o->json && isatty(STDOUT_FILENO);
+    if (live)
+        master_keys();
     m = (struct dp_master){.ini = *ini,
                            .slaves = s->slaves,
                            .slaves_n = s->slaves_n,
@@ -323,7 +350,9 @@ int master_cyclic(struct master_line *l, struct setup *s, const struct ini *ini,
     for (unsigned i = 0; i < s->slaves_n; i++)
         memcpy(kept[i], s->slaves[i].outputs, sizeof kept[i]);
     dpm_begin(&m);
-    for (uint64_t now = 0; !over(now); now = ml_now(l)) {
+    if (view)
+        view->begin(&m, o);
+    for (uint64_t now = ml_now(l); !over(now); now = ml_now(l)) {
         if (now >= next_control) {
             next_control = now + REPEAT;
             control(clear ? 0x02 : 0x00, 0);

@@ -9,11 +9,7 @@ fieldling-dp_SRC      = boards/posix/fieldling_dp.c boards/posix/dp_trace.c boar
                         $(DP_STATION) sim/telegram.c
 fieldling-dp_DEFAULTS = $(DP_DEFAULTS)
 
-PROGRAMS += fieldling-demo
-fieldling-demo_SRC      = boards/posix/fieldling_demo.c boards/posix/dp_words.c boards/posix/options.c $(SIM_BUS) \
-                          $(DP_STATION)
-fieldling-demo_DEFAULTS = $(DP_DEFAULTS)
-
+# The live demonstration: on a terminal until Ctrl-C.
 .PHONY: run-dp
-run-dp: build/posix/fieldling-demo
-	@$(if $(STATIONS),sh sim/run_stations.sh $(STATIONS),build/posix/fieldling-demo)
+run-dp: build/posix/fieldling-master
+	@$(if $(STATIONS),sh sim/run_stations.sh $(STATIONS),sh boards/posix/dp_demo.sh)
