@@ -11,6 +11,9 @@ HDLC_BUS  = $(HDLC_CHIP) $(HAL_VIRTUAL) sim/hdlc_bus.c host_tests/hdlc_no_uart.c
 UNIT_TESTS += test_hdlc_bits
 test_hdlc_bits_SRC = sim/hdlc_bits.c
 
+UNIT_TESTS += test_i8273
+test_i8273_SRC = sim/i8273.c sim/i8273_line.c sim/hdlc_bits.c
+
 UNIT_TESTS += test_hdlc_nrm
 test_hdlc_nrm_SRC      = $(HDLC_SRC) $(HDLC_BUS) sim/hdlc_pcap.c
 test_hdlc_nrm_DEFAULTS = $(HDLC_DEFAULTS)

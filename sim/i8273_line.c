@@ -300,8 +300,8 @@ static void data_bit(struct i8273 *chip, bool bit)
         rx->crc = hb_crc_bit(rx->crc, (rx->window >> 57) & 1u);
     if (rx->bits == 8u)
         select_frame(rx);
-    if (rx->in_frame && rx->bits >= 24u && rx->bits % 8u == 0)
-        hand_over(chip, rx->bits / 8u - 3u, (uint8_t)(rx->window >> 40));
+    if (rx->in_frame && rx->bits >= 24u + 6u && rx->bits % 8u == 6u) /* FCS and flag may be behind it already */
+        hand_over(chip, rx->bits / 8u - 3u, (uint8_t)(rx->window >> 34));
 }
 
 static void sixth_one_and_more(struct i8273 *chip)
