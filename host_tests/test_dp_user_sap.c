@@ -13,7 +13,7 @@ static struct fdl_reply reply;
 
 static struct {
     unsigned n;
-    uint8_t service, ssap, sa, len, data[8];
+    uint8_t service, ssap, sa, update, len, data[8];
     bool high;
 } got;
 
@@ -24,6 +24,7 @@ void ddlm_user_data_ind(const struct fdl_ind XDATA *ind)
     got.ssap = ind->ssap;
     got.sa = ind->sa;
     got.high = ind->high;
+    got.update = ind->update;
     got.len = ind->len;
     memcpy(got.data, ind->lsdu, ind->len);
 }
@@ -56,6 +57,7 @@ static void an_SDA_is_acknowledged_and_given_to_the_application_once(void)
     TEST_ASSERT_EQUAL(2, got.sa);
     TEST_ASSERT_EQUAL(2, got.len);
     TEST_ASSERT_EQUAL_HEX8(0xB2, got.data[1]);
+    TEST_ASSERT_EQUAL(FDL_UPDATED_NO, got.update);
     ASK("68 05 05 68 88 82 63 0A 3E B5 16", ACK); /* SDA low, no data */
     TEST_ASSERT_FALSE(got.high);
     TEST_ASSERT_EQUAL(0, got.len);
@@ -73,15 +75,19 @@ static void an_SRD_is_answered_from_what_was_updated_before(void)
 {
     static const uint8_t data[] = {0x31, 0x32};
     ASK("68 06 06 68 88 82 6D 0B 3E 01 C1 16", ACK); /* nothing yet: no reply data */
+    TEST_ASSERT_EQUAL(FDL_UPDATED_NO, got.update);
     TEST_ASSERT_EQUAL(FDL_L_OK, fdl_reply_update(SAP_B, data, 2, FDL_UPDATE_LOW));
     ASK("68 06 06 68 88 82 6D 0B 3E 02 C2 16", "68 07 07 68 82 88 08 3E 0B 31 32 BE 16");
     ASK("68 06 06 68 88 82 6C 0B 3E 03 C2 16",
         "68 07 07 68 82 88 08 3E 0B 31 32 BE 16"); /* multiple: stays */
     TEST_ASSERT_EQUAL_UINT(3, got.n);
+    TEST_ASSERT_EQUAL(FDL_UPDATED_LO, got.update);
     TEST_ASSERT_EQUAL(FDL_L_OK, fdl_reply_update(SAP_B, data, 2, FDL_UPDATE_HIGH | FDL_UPDATE_SINGLE));
     ASK("68 05 05 68 88 82 6D 0B 3E C0 16",
         "68 07 07 68 82 88 0A 3E 0B 31 32 C0 16"); /* a CSRD poll: no data */
+    TEST_ASSERT_EQUAL(FDL_UPDATED_HI, got.update);
     ASK("68 05 05 68 88 82 6D 0B 3E C0 16", ACK);  /* single: gone */
+    TEST_ASSERT_EQUAL(FDL_UPDATED_NO, got.update);
 }
 
 static void a_lost_answer_to_a_single_update_is_repeated(void)

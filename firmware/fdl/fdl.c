@@ -96,6 +96,13 @@ static uint8_t next_box_isr(uint8_t box) IN_ISR
     return box == FDL_BOXES ? 0u : (uint8_t)(box + 1u);
 }
 
+static uint8_t update_status_isr(void) IN_ISR
+{
+    if (!fdl_req.reply || !fdl_req.reply->valid)
+        return FDL_UPDATED_NO;
+    return (uint8_t)(FDL_UPDATED_LO + fdl_req.reply->high);
+}
+
 /* Into a box for the main loop -> FDL_OK, or FDL_RR when all are taken. */
 static uint8_t box_isr(void) IN_ISR
 {
@@ -109,6 +116,7 @@ static uint8_t box_isr(void) IN_ISR
     box->ind.dsap = fdl_req.dsap;
     box->ind.ssap = fdl_req.ssap;
     box->ind.sa = fdl_req.sa;
+    box->ind.update = update_status_isr();
     box->ind.len = fdl_req.len;
     box->ind.lsdu = fdl_req.lsdu;
     box->buffer = fdl_keep_isr(0);

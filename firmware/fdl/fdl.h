@@ -106,6 +106,9 @@ void fdl_set_address(uint8_t ts);
 /* Hand the waiting indications to fdl_data_ind(), oldest first. main. */
 void fdl_poll(void);
 
+/* Update_status of an SRD: with what it has been answered. */
+enum fdl_update_status { FDL_UPDATED_NO, FDL_UPDATED_LO, FDL_UPDATED_HI };
+
 /* An indication that waits for the main loop: FDL_DATA.indication, FDL_DATA_REPLY.indication. */
 struct fdl_ind {
     uint8_t service; /* FDL_SDA, FDL_SDN, FDL_SRD                           */
@@ -113,6 +116,7 @@ struct fdl_ind {
     uint8_t dsap;    /* 0..62, FDL_SAP_NIL                                  */
     uint8_t ssap;    /* 0..63, FDL_SAP_NIL                                  */
     uint8_t sa;      /* station that asked                                  */
+    uint8_t update;  /* enum fdl_update_status; NO for SDA and SDN          */
     uint8_t len;     /* of lsdu                                             */
     const uint8_t XDATA *lsdu;
 };
