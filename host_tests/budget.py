@@ -3,23 +3,31 @@
 
 Code and RAM are what the linker says (text + data, data + bss). Instructions are those that QEMU executed, one a block: of an
 interrupt of the line that stored one octet, and of one whose octet ended a header; the least of many, because the host decides
-in QEMU what else a handler finds to do. They are taken from FDL status requests to the image as delivered.
+in QEMU what else a handler finds to do. They are taken from FDL status requests to the image as delivered. Of a telegram they
+are all that ran, the main loop too, from the interrupt of its first octet to hal_send() of the answer.
+
+The stack is what lost the paint of the start-up code while a master and the console kept the station busy for some seconds. It
+is a high-water mark of that run, not a bound: that no interrupt came at the deepest place is luck, hence room in the limits.
 
 usage: budget.py [--table]
 """
 import bisect
 import functools
+import json
 import os
 import pty
 import re
 import select
+import socket
 import subprocess
 import sys
 import tempfile
 import time
 import tty
 
-from machine import qemu
+from machine import Machine, qemu
+from raw_master import RawMaster
+from run_board import ADDRESS, DELIVERED, MASTER, RATE, set_address
 from station import expect, run_tests
 
 IMAGES = {"com86": ("fieldling-dp", "fieldling-modbus"), "lm3s6965evb": ("fieldling-dp", "fieldling-modbus"),
@@ -28,6 +36,12 @@ REQUESTS = {  # FDL status of the station as delivered; EN 50170-2 part 4, 4.7
     "com86": "10 7E 02 49 C9 16", "lm3s6965evb": "10 03 02 49 4E 16"}
 HANDLER = {"com86": "irq3", "lm3s6965evb": "line_isr"}
 TIMES = 8
+READ_3_REGISTERS = "01 03 00 00 00 03 05 CB"  # Modbus application protocol 6.3
+MODBUS_REQUESTS = [  # what a master asks in turn: coils, registers, one written, four written, diagnostics, a wrong function
+    "01 01 00 00 00 01 FD CA", READ_3_REGISTERS, "01 06 00 00 04 D2 0B 57", "01 10 00 00 00 01 02 03 E8 A6 EE",
+    "01 08 00 00 A5 37 DA 8D", "01 41 C0 10"]
+PAINT = 0xA5
+BUSY_S = 4
 
 
 def limits(board):
@@ -60,8 +74,8 @@ class Symbols:
         return self.at[bisect.bisect_right(self.starts, pc) - 1][1]
 
 
-def traced(board, image, octets, folder):
-    """Let the image hear octets, one in 1.5 ms (less than T_SYN at 9600 bit/s), and answer. -> (function, is its first) of each instruction"""
+def traced(board, image, pieces, folder):
+    """Let the image hear pieces, one in 1.5 ms (less than T_SYN at 9600 bit/s), and answer. -> (function, is its first) of each instruction"""
     path = f"build/{board}/{image}.{'bin' if board == 'com86' else 'elf'}"
     log = f"{folder}/{board}-{image}.log"
     ours, theirs = pty.openpty()
@@ -72,10 +86,11 @@ def traced(board, image, octets, folder):
         try:
             time.sleep(1.5)
             for _ in range(TIMES):
-                for octet in octets:
-                    os.write(ours, bytes([octet]))
+                for piece in pieces:
+                    os.write(ours, piece)
                     time.sleep(0.0015)
                 if select.select([ours], [], [], 0.2)[0]:
+                    time.sleep(0.05)  # the rest of the answer, and silence
                     os.read(ours, 256)
         finally:
             process.terminate()
@@ -95,7 +110,7 @@ def traced(board, image, octets, folder):
 def interrupts(board, image, octets, folder):
     """-> for each interrupt of the line that woke the sleeping main loop: (instructions, functions entered)"""
     n, entered, before = 0, [], ""
-    for name, is_first in traced(board, image, octets, folder):
+    for name, is_first in traced(board, image, [bytes([octet]) for octet in octets], folder):
         if n == 0 and name == HANDLER[board] and is_first and before == "hal_idle":
             n, entered = 1, [name]
         elif n and name == "hal_idle":
@@ -106,6 +121,105 @@ def interrupts(board, image, octets, folder):
             if is_first:
                 entered.append(name)
         before = name
+
+
+def telegrams(board, image, request, folder):
+    """-> for each answered request, sent in one piece: the instructions from its first octet to hal_send(), sleep excepted"""
+    n, heard = 0, False
+    for name, is_first in traced(board, image, [request], folder):
+        if is_first and name == HANDLER[board] and not heard:
+            n = 0
+        n += name != "hal_idle"
+        if is_first and name == "line_octet_isr":
+            heard = True
+        elif is_first and name == "hal_send" and heard:
+            yield n
+            heard = False
+
+
+def telegram_instructions(board, image, request):
+    with tempfile.TemporaryDirectory() as folder:
+        seen = list(telegrams(board, image, bytes.fromhex(request), folder))
+    expect(f"{board} {image}: answers seen", len(seen) >= TIMES // 2, True)
+    return min(seen)
+
+
+class Monitor:
+    """The memory of a running machine, by QEMU's own monitor (QMP)."""
+
+    def __init__(self, path):
+        self.socket = socket.socket(socket.AF_UNIX)
+        self.socket.settimeout(10)
+        self.socket.connect(path)
+        self.file = self.socket.makefile("rw", encoding="utf-8")
+        self.file.readline()
+        self.ask("qmp_capabilities")
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.file.close()
+        self.socket.close()
+
+    def ask(self, command, **arguments):
+        self.file.write(json.dumps({"execute": command, "arguments": arguments}) + "\n")
+        self.file.flush()
+        while True:
+            answer = json.loads(self.file.readline())
+            if "event" not in answer:
+                expect(command, answer, {"return": {}})
+                return
+
+    def memory(self, start, end, file):
+        self.ask("pmemsave", val=start, size=end - start, filename=file)
+        with open(file, "rb") as saved:
+            return saved.read()
+
+
+def address_of(board, image, *names):
+    out = subprocess.run([tool(board, "nm"), f"build/{board}/{image}.elf"], text=True, check=True, stdout=subprocess.PIPE).stdout
+    at = {name: int(a, 16) for a, _, name in map(str.split, out.splitlines())}
+    return [at[name] for name in names]
+
+
+def kept_busy_with_dp(board, machine):
+    station = DELIVERED[board]
+    if station == 126:
+        set_address(machine, station)
+        station = ADDRESS
+    command = [MASTER, "--line", machine.pty, "--rate", RATE, "--retries", "5", "--slot", "100",
+               "--slave", f"{station}=gsd/FLDL1234.GSD", "--count", "--seconds", str(BUSY_S), "cyclic"]
+    with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+        while process.poll() is None:
+            machine.ask("in 1 77")
+            said = machine.ask("status")
+    expect("data were exchanged", int(said["data_exchange"]) > 50, True)
+
+
+def kept_busy_with_modbus(_, machine):
+    answered, end = 0, time.monotonic() + BUSY_S
+    with RawMaster(machine.pty) as asking:
+        while time.monotonic() < end:
+            for request in MODBUS_REQUESTS:
+                asking.say(request)
+                answered += bool(asking.hear(0.2))
+                asking.hear(0.02)
+            machine.ask("status")
+    expect("requests were answered", answered > 50, True)
+
+
+def stack(board, image):
+    """-> octets of the stack that have been used"""
+    bottom, top = address_of(board, image, "stack_bottom", "stack_top")
+    with tempfile.TemporaryDirectory() as folder:
+        with Machine(board, image, more=["-qmp", f"unix:{folder}/qmp,server=on,wait=off"]) as machine:
+            (kept_busy_with_dp if image == "fieldling-dp" else kept_busy_with_modbus)(board, machine)
+            with Monitor(f"{folder}/qmp") as monitor:
+                octets = monitor.memory(bottom, top, f"{folder}/stack")
+    unused = len(octets) - len(octets.lstrip(bytes([PAINT])))
+    expect(f"{board} {image}: paint is left", unused > 0, True)
+    return len(octets) - unused
 
 
 @functools.lru_cache(None)
@@ -128,6 +242,10 @@ def figures(board):
         found.update({f"{short}_{what}": value for what, value in size(board, image).items()})
     if board in REQUESTS:
         found.update({name: n for name, n in instructions(board).items() if name != "end_instructions"})
+        found["dp_telegram_instructions"] = telegram_instructions(board, "fieldling-dp", REQUESTS[board])
+        found["modbus_telegram_instructions"] = telegram_instructions(board, "fieldling-modbus", READ_3_REGISTERS)
+        found["dp_stack"] = stack(board, "fieldling-dp")
+        found["modbus_stack"] = stack(board, "fieldling-modbus")
     return found
 
 
@@ -136,7 +254,7 @@ def within_budget(board):
     found = figures(board)
     expect("figures", sorted(found), sorted(most))
     for name, value in found.items():
-        print(f"  {board:12} {name:20} {value:6} of {most[name]}")
+        print(f"  {board:12} {name:28} {value:6} of {most[name]}")
     over = {name: value for name, value in found.items() if value > most[name]}
     expect("over the budget", over, {})
 

@@ -31,13 +31,13 @@ class Machine(Station):
     """with Machine("com86", "fieldling-dp") as m: m.pty is the line, m.ask("status")["state"] ... The image is a copy, so
     what the machine writes into its flash stays for the next Machine with flash=m.flash."""
 
-    def __init__(self, board, image, flash=None, trace=()):
+    def __init__(self, board, image, flash=None, trace=(), more=()):
         self.folder = tempfile.mkdtemp(prefix="fieldling-")
         suffix = "bin" if board == "com86" else "elf"
         self.flash = flash or shutil.copy(f"build/{board}/{image}.{suffix}", self.folder)
         self.redirected = []
         self.events = f"{self.folder}/events"
-        self._start(qemu(self.flash, "stdio,id=console,signal=off", "pty,id=line", trace, self.events))
+        self._start(qemu(self.flash, "stdio,id=console,signal=off", "pty,id=line", trace, self.events, more))
         try:
             self.wait(lambda: self.redirected, "the line")
             self.pty = self.redirected[0]
