@@ -19,6 +19,8 @@ DIAG_FIRST = "68 05 05 68 85 82 6D 3C 3E EE 16"
 DIAG = "68 05 05 68 85 82 5D 3C 3E DE 16"
 SET_PRM = "68 0C 0C 68 85 82 5D 3D 3E 80 01 01 0B 12 34 00 B2 16"
 CHK_CFG = "68 09 09 68 85 82 7D 3E 3E 10 20 10 20 60 16"
+DIAG_7D = "68 05 05 68 85 82 7D 3C 3E FE 16"
+NOT_YET = "68 0B 0B 68 82 85 08 3E 3C 02 04 00 FF 12 34 D4 16"  # acknowledged, but the main loop has not looked at it yet
 DX_7D = "68 05 05 68 05 02 7D 11 22 B7 16"
 DX_5D = "68 05 05 68 05 02 5D 33 44 DB 16"
 FOREIGN = "68 05 05 68 84 82 6D 3C 3E ED 16"
@@ -35,6 +37,8 @@ SCENE = [
 # divisor of Timer 2 at 12 MHz: rate, longest T_SDR [T_bit] this image keeps (budget)
 RATES = {39: (9600, 60), 4: (93750, 130)}
 RETRIES = 3
+# between two requests [instructions]: the main loop's turn, so that the next answer shows what the last request did
+MASTER_PAUSE = 24000
 
 results = []
 
@@ -52,10 +56,20 @@ def octets(text):
 def ask(chip, request):
     """-> (exchange, repeats)"""
     for repeats in range(RETRIES + 1):
-        exchange = chip.ask(octets(request), idle=12000)
+        exchange = chip.ask(octets(request), idle=MASTER_PAUSE)
         if exchange.answer:
             break
     return exchange, repeats
+
+
+def until_ready(chip, exchange):
+    """A master polls Slave_Diag until the slave is ready; twice a turn, so that FCB comes out the same."""
+    for _ in range(5):
+        if exchange.answer != octets(NOT_YET):
+            break
+        ask(chip, DIAG_7D)
+        exchange, _ = ask(chip, DIAG)
+    return exchange
 
 
 def parity(octet):
@@ -81,6 +95,7 @@ def scene(n):
         chip.wait_for_rate(n)
         for name, request, answer in SCENE:
             exchange, repeats = ask(chip, request)
+            exchange = until_ready(chip, exchange)
             check(f"{name} at {rate}", exchange.answer == octets(answer),
                   f"{exchange.answer.hex(' ')} instead of {answer.lower()}")
             if not exchange.written:
