@@ -24,7 +24,9 @@ static uint16_t last_tick;
 enum reply_of { NO_REPLY, CFG_REPLY, DIAG_REPLY, INPUT_REPLY, RD_OUTP_REPLY };
 
 /* Set_Slave_Add and Chk_Cfg are acknowledged wherever their SAP is active; whether they are processed is their
- * handler's business. Set_Slave_Add stays active so that a retry is acknowledged like the first. */
+ * handler's business. Set_Slave_Add stays active so that a retry is acknowledged like the first.
+ * our choice: RD_Inp is answered from Data_Exchange's own buffer, always the same inputs, and with its priority: DH while
+ * a diagnosis is pending. */
 struct service {
     uint8_t sap;
     uint8_t states;
