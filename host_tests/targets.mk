@@ -16,6 +16,11 @@ $(foreach b,$(QEMU_BOARDS),$(eval $(call image,$b,hal_contract,\
     $($b_PORT) host_tests/hal_contract.c host_tests/target/console.c build/unity/unity.c,\
     $(TARGET_UNITY) -Ihost_tests -Ihost_tests/contract/board $($b_CONTRACT))))
 
+# ---- non-volatile cells on a page that fails --------------------------------------------------------------------------
+
+UNIT_TESTS += test_nv_log
+test_nv_log_SRC = firmware/hal/nv_log.c
+
 # ---- the module tests of DP, with the fake port of their own -----------------------------------------------------------
 
 define qemu_unit_test # BOARD,TEST

@@ -2,12 +2,14 @@
 
 #define ERASED 0xFFFFFFFFu
 
+/* Sought from above: an erase that lost power may have left erased words below old ones, and what is appended must come
+ * behind them all. */
 static uint16_t log_end(void)
 {
-    uint16_t n = 0;
+    uint16_t n = nv_page_words;
 
-    while (n < nv_page_words && nv_page_read(n) != ERASED)
-        n++;
+    while (n && nv_page_read((uint16_t)(n - 1u)) == ERASED)
+        n--;
     return n;
 }
 
@@ -25,11 +27,12 @@ static uint8_t newest(uint8_t index)
     return 0xFF;
 }
 
-/* The page is full: keep what the cells hold, and begin anew. */
+/* The page is full: keep what the cells hold, and begin anew. A word that fails costs its own cell only. */
 static bool compact(void)
 {
     uint8_t cells[HAL_NV_SIZE];
     uint16_t end = 0;
+    bool good = true;
     uint8_t i;
 
     for (i = 0; i < HAL_NV_SIZE; i++)
@@ -38,8 +41,8 @@ static bool compact(void)
         return false;
     for (i = 0; i < HAL_NV_SIZE; i++)
         if (cells[i] != 0xFFu && !nv_page_program(end++, NV_LOG_WORD(i, cells[i])))
-            return false;
-    return true;
+            good = false;
+    return good;
 }
 
 static bool append(uint8_t index, uint8_t value)
