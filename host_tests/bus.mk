@@ -18,6 +18,9 @@ build/gsd/%/FLDL1234.GSD: gsd/gsd_main.c boards/%/dp_rates.h boards/common/dp_te
 	$(call say,GSD,$@)gcc $(WARNINGS) $(INCLUDES) -DFIELDLING_CONFIG='"dp_test01.h"' \
 	    -DBOARD_RATES='"boards/$*/dp_rates.h"' $< -o $(@D)/gsd && $(@D)/gsd >$@
 
+# made with the boards' images: a test holds each against its board's clock
+BOARD_IMAGES += $(GSD_FILES)
+
 .PHONY: gsd
 gsd: build/posix/fieldling-gsd $(GSD_FILES)
 	@name=$$($< --name) && $< >gsd/$$name && python3 gsd/check gsd/$$name $(GSD_FILES)
