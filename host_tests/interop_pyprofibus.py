@@ -60,9 +60,9 @@ class LossyPhy(CpPhySerial):
 class Master:
     """A class 1 master with DP-TEST01 as its only slave, described by hand."""
 
-    def __init__(self, pty, watchdog_ms=5000, phy_class=CpPhySerial, address=ADDRESS):
+    def __init__(self, pty, watchdog_ms=5000, phy_class=CpPhySerial, address=ADDRESS, rate=RATE):
         phy = phy_class(port=pty)
-        phy.setConfig(baudrate=RATE)
+        phy.setConfig(baudrate=rate)
         self.dp = DPM1(phy=phy, masterAddr=MASTER)
         self.slave = DpSlaveDesc()
         self.slave.slaveAddr = address
