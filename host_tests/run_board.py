@@ -1,23 +1,33 @@
 #!/usr/bin/env python3
-"""The demonstration with a board as the station: its image runs in QEMU, the master is a program on the board's line.
+"""The demonstration with a board as the station: its image runs in QEMU, or in s51 for an 8051; the master is a program
+on the board's line.
 
 usage: run_board.py BOARD [SECONDS]
 """
 import subprocess
 import sys
+from pathlib import Path
 
 from machine import Machine
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "sim" / "s51"))
+from chip_pty import ChipOnPty  # noqa: E402
 
 MASTER = "build/posix/fieldling-master"
 RATE = "9600"  # what the station's baud search tries first
 IDENT = "0x1234"
 DELIVERED = {"com86": 126, "lm3s6965evb": 3}  # station address of the image
 ADDRESS = 8
+CHIPS = {"87c51fb": (39, 5)}  # Timer 2's divisor for RATE, address switches
 
 
-def master(pty, *arguments):
-    command = [MASTER, "--line", pty, "--rate", RATE, "--retries", "5", "--slot", "100", *arguments]
+def master(pty, *arguments, slot="100"):
+    command = [MASTER, "--line", pty, "--rate", RATE, "--retries", "5", "--slot", slot, *arguments]
     return subprocess.run(command, stderr=subprocess.DEVNULL, check=False).returncode
+
+
+def cyclic(pty, station, seconds, **options):
+    return master(pty, "--slave", f"{station}=gsd/FLDL1234.GSD", "--count", "--seconds", seconds, "cyclic", **options)
 
 
 def set_address(machine, old):
@@ -30,6 +40,24 @@ def set_address(machine, old):
 
 
 def main(board, seconds="10"):
+    return on_chip(board, seconds) if board in CHIPS else in_qemu(board, seconds)
+
+
+def on_chip(board, seconds):
+    rate_n, station = CHIPS[board]
+    print(f"DP-TEST01 on {board} in s51: the chip looks for its rate", flush=True)
+    with ChipOnPty(f"build/{board}/fieldling-dp.ihx", rate_n, switches=station) as chip:
+        print(f"{RATE} bit/s; a DP master on its serial port, {chip.pty}\n", flush=True)
+        chip.start()
+        status = cyclic(chip.pty, station, seconds, slot="1000")
+    chip.read_log()
+    requests = chip.requests()
+    print(f"\nthe chip, in {(chip.log[-1][2] - chip.log[0][2]) / 1e6:.1f} s of its time: {len(requests)} telegrams in, "
+          f"{sum(request.answered > 0 for request in requests)} answers out")
+    return status
+
+
+def in_qemu(board, seconds):
     with Machine(board, "fieldling-dp") as machine:
         print(f"DP-TEST01 on {board} in QEMU, a DP master on its second serial port, {machine.pty}\n", flush=True)
         if DELIVERED[board] == 126:
@@ -39,7 +67,7 @@ def main(board, seconds="10"):
         else:
             station = DELIVERED[board]
         machine.ask("in 1 31")
-        status = master(machine.pty, "--slave", f"{station}=gsd/FLDL1234.GSD", "--count", "--seconds", seconds, "cyclic")
+        status = cyclic(machine.pty, station, seconds)
         said = machine.ask("status")
         print("\nthe board's console: " + " ".join(f"{key}={value}" for key, value in said.items()))
         return status if said["state"] in ("DATA_EXCH", "WAIT_PRM") and int(said["data_exchange"]) > 0 else 1

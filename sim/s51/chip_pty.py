@@ -3,7 +3,7 @@
     with ChipOnPty(image, rate_n) as chip:
         chip.start()    chip.pty is the line
 
-The simulation runs freely, about as fast as the part itself, slower and in bursts on a busy machine. A pseudo terminal
+The simulation runs freely, a few times as fast as the part, slower and in bursts on a busy machine. A pseudo terminal
 has no bit times; what a line would do is done by a relay, generously (our choice):
   - a request is kept back until the simulated line has been silent for long: T_SYN is there however slow the simulation;
   - an answer is handed over in one piece: no gap between octets that the chip did not make.
