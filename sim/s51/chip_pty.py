@@ -20,7 +20,7 @@ import chip as s51
 
 OCTET = 0.0023  # seconds: twice what an octet takes at 9600 bit/s
 PAUSE = 0.03    # seconds: eight times T_SYN at 9600 bit/s
-PIECE = 0.015   # seconds without an octet end an answer
+PIECE = 0.03     # seconds without an octet end an answer
 BREAK = 2600    # machine cycles between the ends of two octets of different telegrams: two octets at 9600 bit/s and more
 
 Request = collections.namedtuple("Request", "octets answered")
