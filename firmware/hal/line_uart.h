@@ -23,7 +23,8 @@
  *   bool uart_rx(uint8_t *octet, uint8_t *err)           take one received octet; false: there is none
  *   uint16_t uart_tx_room(void)                          octets that fit now, at least 1 in a transmitter interrupt
  *   void uart_tx(uint8_t octet)                          one octet into the transmitter
- *   void uart_tx_irq(bool on)                            the interrupt that says there is room
+ *   void uart_tx_irq(bool on)                            the interrupt that says there is room; it must come too when there
+ *                      was room before it was switched on (a UART that tells it by an edge: request it here by software)
  *   bool uart_tx_idle(void)                              the last stop bit is out
  *   void uart_driver(bool on)                            RS-485 driver enable; not called in a loop
  *
