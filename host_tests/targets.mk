@@ -100,6 +100,7 @@ bench-stack: $(STACK_OBJECTS)
 
 GCC_IMAGES := $(foreach i,fieldling-dp fieldling-modbus,build/com86/$i.bin build/lm3s6965evb/$i.elf build/bluepill/$i.bin)
 SCRIPT_TESTS_ONCE += host_tests/budget.py
+host_tests/budget.py_TIMEOUT := 300
 SIZES   += size-boards
 BENCHES += bench-boards
 size-boards: $(GCC_IMAGES)
