@@ -1,6 +1,7 @@
 # 8051 images in the simulator s51, and their budgets.
 
-SCRIPT_TESTS_ONCE += host_tests/s51_dp.py host_tests/s51_masters.py
+SCRIPT_TESTS_ONCE += host_tests/s51_dp.py host_tests/s51_masters.py host_tests/s51_contract.py
+host_tests/s51_contract.py_TIMEOUT := 300
 host_tests/s51_dp.py_TIMEOUT      := 300
 host_tests/s51_masters.py_TIMEOUT := 300
 
@@ -18,3 +19,18 @@ SIZES  += size-mcs51
 STATIC += size-mcs51
 size-mcs51: build/87c51fb/fieldling-dp.ihx
 	@python3 host_tests/mcs51_size.py boards/87c51fb/budget.txt
+
+# ---- the contract of hal.h, compiled as the product is; a constant condition is no mistake in a test (126) ----
+
+S51_CONTRACT_SRC := host_tests/hal_contract.c host_tests/contract/s51/unity.c $(87c51fb_HAL) firmware/hal/mcs51/octet.c
+S51_CONTRACT_REL := $(patsubst %.c,build/s51_contract/%.rel,$(S51_CONTRACT_SRC))
+S51_CONTRACT_CC   = $(MCS51_CC) --disable-warning 126 -Ihost_tests/contract/s51 -Ihost_tests $(MCS51_INCLUDES) \
+                    -Iboards/87c51fb -DFOSC_HZ=12000000ul
+
+BOARD_IMAGES += build/s51_contract/hal_contract.ihx
+build/s51_contract/%.rel: %.c $(wildcard firmware/*.h firmware/hal/*.h firmware/hal/mcs51/*.h host_tests/contract/s51/*.h) \
+                          host_tests/hal_contract.h boards/87c51fb/wiring.h host_tests/mcs51.mk
+	@mkdir -p $(@D)
+	$(call say,SDCC,$@)$(S51_CONTRACT_CC) -c $< -o $@
+build/s51_contract/hal_contract.ihx: $(S51_CONTRACT_REL)
+	$(call say,LINK51,$@)$(S51_CONTRACT_CC) --code-size $(87c51fb_CODE) --xram-size $(87c51fb_XRAM) --iram-size 256 $^ -o $@
