@@ -5,7 +5,7 @@
 #include "hal/mcs51/mcs51.h"
 
 #define CONTRACT_UART_TIMED 1
-#define CONTRACT_LOOP       0
+#define CONTRACT_LOOP       1
 #define CONTRACT_NV         1
 #define CONTRACT_LATE_MS    1u
 #define CONTRACT_LIMIT_MS   60u /* 16 bits of machine cycles: 65 ms */
