@@ -27,10 +27,12 @@ S51_CONTRACT_REL := $(patsubst %.c,build/s51_contract/%.rel,$(S51_CONTRACT_SRC))
 S51_CONTRACT_CC   = $(MCS51_CC) --disable-warning 126 -Ihost_tests/contract/s51 -Ihost_tests $(MCS51_INCLUDES) \
                     -Iboards/87c51fb -DFOSC_HZ=12000000ul
 
-BOARD_IMAGES += build/s51_contract/hal_contract.ihx
+# named by its map: static.mk looks for the parts of a .ihx in a folder that only image.mk makes
+BOARD_IMAGES += build/s51_contract/hal_contract.map
 build/s51_contract/%.rel: %.c $(wildcard firmware/*.h firmware/hal/*.h firmware/hal/mcs51/*.h host_tests/contract/s51/*.h) \
                           host_tests/hal_contract.h boards/87c51fb/wiring.h host_tests/mcs51.mk
 	@mkdir -p $(@D)
 	$(call say,SDCC,$@)$(S51_CONTRACT_CC) -c $< -o $@
+build/s51_contract/hal_contract.map: build/s51_contract/hal_contract.ihx
 build/s51_contract/hal_contract.ihx: $(S51_CONTRACT_REL)
 	$(call say,LINK51,$@)$(S51_CONTRACT_CC) --code-size $(87c51fb_CODE) --xram-size $(87c51fb_XRAM) --iram-size 256 $^ -o $@

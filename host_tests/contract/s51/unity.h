@@ -10,7 +10,7 @@
 struct unity_result {
     uint16_t first_failure; /* line, 0: none */
     uint16_t expected, was;
-    uint16_t ignored;       /* line, 0: it ran */
+    uint16_t ignored; /* line, 0: it ran */
 };
 
 extern struct unity_result XDATA unity_results[UNITY_TESTS];
@@ -22,15 +22,19 @@ void unity_done(void);
 void setUp(void);
 void tearDown(void);
 
-#define UNITY_CHECK(good, a, b) do { if (!(good)) unity_failed(__LINE__, (uint16_t)(a), (uint16_t)(b)); } while (0)
-#define TEST_ASSERT_TRUE(c)                         UNITY_CHECK(c, 1, 0)
-#define TEST_ASSERT_EQUAL(a, b)                     UNITY_CHECK((a) == (b), a, b)
-#define TEST_ASSERT_NOT_EQUAL(a, b)                 UNITY_CHECK((a) != (b), a, a)
-#define TEST_ASSERT_EQUAL_UINT8(a, b)               UNITY_CHECK((uint8_t)(a) == (uint8_t)(b), a, b)
-#define TEST_ASSERT_EQUAL_HEX8(a, b)                TEST_ASSERT_EQUAL_UINT8(a, b)
-#define TEST_ASSERT_GREATER_OR_EQUAL_UINT16(a, b)   UNITY_CHECK((uint16_t)(b) >= (uint16_t)(a), a, b)
-#define TEST_ASSERT_LESS_OR_EQUAL_UINT16(a, b)      UNITY_CHECK((uint16_t)(b) <= (uint16_t)(a), a, b)
-#define TEST_ASSERT_EQUAL_HEX8_ARRAY(a, b, n)       unity_same(__LINE__, a, b, n)
+#define UNITY_CHECK(good, a, b)                                                                                        \
+    do {                                                                                                               \
+        if (!(good))                                                                                                   \
+            unity_failed(__LINE__, (uint16_t)(a), (uint16_t)(b));                                                      \
+    } while (0)
+#define TEST_ASSERT_TRUE(c)                       UNITY_CHECK(c, 1, 0)
+#define TEST_ASSERT_EQUAL(a, b)                   UNITY_CHECK((a) == (b), a, b)
+#define TEST_ASSERT_NOT_EQUAL(a, b)               UNITY_CHECK((a) != (b), a, a)
+#define TEST_ASSERT_EQUAL_UINT8(a, b)             UNITY_CHECK((uint8_t)(a) == (uint8_t)(b), a, b)
+#define TEST_ASSERT_EQUAL_HEX8(a, b)              TEST_ASSERT_EQUAL_UINT8(a, b)
+#define TEST_ASSERT_GREATER_OR_EQUAL_UINT16(a, b) UNITY_CHECK((uint16_t)(b) >= (uint16_t)(a), a, b)
+#define TEST_ASSERT_LESS_OR_EQUAL_UINT16(a, b)    UNITY_CHECK((uint16_t)(b) <= (uint16_t)(a), a, b)
+#define TEST_ASSERT_EQUAL_HEX8_ARRAY(a, b, n)     unity_same(__LINE__, a, b, n)
 #define TEST_IGNORE_MESSAGE(text)                                                                                      \
     do {                                                                                                               \
         unity_results[unity_n].ignored = __LINE__;                                                                     \
