@@ -179,7 +179,7 @@ help:
 	@echo "make run STATIONS=8      so many stations and one master on a segment of pseudo terminals (1 to 14)"
 	@echo "make run BOARD=com86     the same with a simulated board as the station (com86, lm3s6965evb, 87c51fb)"
 	@echo "make flash BOARD=bluepill  program a board"
-	@echo "make check               unit tests, 8051 and Cortex-M compile, static checks: under a minute"
+	@echo "make check               unit tests, 8051 and Cortex-M compile, static checks: about a minute"
 	@echo "make asan                the unit tests again, by clang with AddressSanitizer and UBSan"
 	@echo "make test                everything: all boards, sanitizers, foreign masters; ends in N passed, N failed"
 	@echo "make bench               measured figures on this machine"

@@ -28,7 +28,9 @@
 #define IDATA     __idata
 #define PAGED     __pdata
 #define CODE      __code
-#define IN_ISR    __using(1)
+#ifndef IN_ISR /* test images, in which main() calls interrupt code itself, have one register bank: -DIN_ISR= */
+#define IN_ISR __using(1)
+#endif
 #define REENTRANT __reentrant
 #else
 #define XDATA
