@@ -171,7 +171,8 @@ static void refuse_isr(uint8_t function) IN_ISR
 static bool same_as_last_isr(void) IN_ISR
 {
     return fdl_header.fc == last.fc && fdl_header.fcs == last.fcs && fdl_header.len == last.len &&
-           fdl_header.da == last.da && fdl_header.sa == last.sa && fdl_header.more[0] == last.more[0] && fdl_header.more[1] == last.more[1];
+           fdl_header.da == last.da && fdl_header.sa == last.sa && fdl_header.more[0] == last.more[0] &&
+           fdl_header.more[1] == last.more[1];
 }
 
 static void remember_isr(void) IN_ISR
