@@ -251,3 +251,21 @@ hal_dur_t hal_tbit(uint16_t n)
 
     return whole && n > (most - part) / whole ? most : (hal_dur_t)(whole * n + part);
 }
+
+/* ---- milliseconds: from the same clock ---------------------------------------------------------------------- */
+
+static uint32_t last_ms; /* timer_now() at the last whole one */
+static uint16_t ms;
+
+uint16_t hal_ticks(void)
+{
+    uint8_t irq = hal_irq_save();
+    uint32_t now = timer_now();
+
+    while ((uint32_t)(now - last_ms) >= TIMER_HZ / 1000u) {
+        last_ms += TIMER_HZ / 1000u;
+        ms++;
+    }
+    hal_irq_restore(irq);
+    return ms;
+}

@@ -32,7 +32,7 @@
  *   void timer_start(hal_dur_t counts)                   one-shot, counts >= 1; restarts if running. Fires `counts` from
  *                      now or a little later; where it cannot count so far, earlier. counts is at most 10 ms
  *   void timer_stop(void)                                an interrupt that still comes does no harm
- *   TIMER_HZ                                             counts a second
+ *   TIMER_HZ                                             counts a second; hal_ticks() is made from it, too
  */
 
 /* To be called by the interrupt handlers: the UART has an octet; the UART has room; the timer has run out. isr. */

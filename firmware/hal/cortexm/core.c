@@ -16,8 +16,6 @@ volatile bool core_interrupted;
 
 static uint32_t clocks;
 static uint32_t last_count = SYST_TOP;
-static uint32_t last_clocks; /* at the last whole millisecond */
-static uint16_t ms;
 
 /* ---- time ------------------------------------------------------------------------------------------------ */
 
@@ -28,19 +26,6 @@ uint32_t core_clocks_isr(void)
     clocks += (last_count - count) & SYST_TOP;
     last_count = count;
     return clocks;
-}
-
-uint16_t hal_ticks(void)
-{
-    uint8_t irq = hal_irq_save();
-    uint32_t now = core_clocks_isr();
-
-    while (now - last_clocks >= BOARD_CORE_HZ / 1000u) {
-        last_clocks += BOARD_CORE_HZ / 1000u;
-        ms++;
-    }
-    hal_irq_restore(irq);
-    return ms;
 }
 
 /* ---- machine --------------------------------------------------------------------------------------------- */

@@ -10,8 +10,6 @@
 
 volatile bool f2808_interrupted;
 
-static uint32_t last_clocks; /* at the last whole millisecond */
-static uint16_t ms;
 
 static void init_timers(void)
 {
@@ -51,19 +49,6 @@ void hal_irq_restore(uint8_t state)
 {
     if (state)
         cpu_unmask();
-}
-
-uint16_t hal_ticks(void)
-{
-    uint8_t irq = hal_irq_save();
-    uint32_t now = timer_now();
-
-    while ((uint32_t)(now - last_clocks) >= BOARD_CPU_HZ / 1000u) {
-        last_clocks += BOARD_CPU_HZ / 1000u;
-        ms = (uint16_t)((ms + 1u) & 0xFFFFu);
-    }
-    hal_irq_restore(irq);
-    return ms;
 }
 
 /* cpu_idle() ends with an interrupt, which then runs. */

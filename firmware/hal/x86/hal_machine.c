@@ -6,8 +6,6 @@
 
 static uint16_t last_count;
 static uint32_t clocks;
-static uint32_t last_clocks; /* at the last whole millisecond */
-static uint16_t ms;
 
 /* ---- interrupts ------------------------------------------------------------------------------------------ */
 
@@ -70,19 +68,6 @@ uint32_t pc_clocks_isr(void)
     clocks += (uint16_t)(count - last_count);
     last_count = count;
     return clocks;
-}
-
-uint16_t hal_ticks(void)
-{
-    uint8_t irq = hal_irq_save();
-    uint32_t now = pc_clocks_isr();
-
-    while (now - last_clocks >= PIT_HZ / 1000u) {
-        last_clocks += PIT_HZ / 1000u;
-        ms++;
-    }
-    hal_irq_restore(irq);
-    return ms;
 }
 
 /* ---- console --------------------------------------------------------------------------------------------- */
