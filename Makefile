@@ -61,16 +61,16 @@ DP_STATION  := $(DP_SRC) boards/common/dp_test01_app.c
 # The same with a console, for boards.
 CONSOLE_DP = boards/common/main_dp_console.c boards/common/dp_console.c boards/common/line_console.c $(DP_STATION)
 
-include boards/images.mk
-include $(sort $(wildcard sim/*.mk boards/*/board.mk host_tests/*.mk))
-
-UNITY := build/unity/unity.c
-
 # One short line per file; `make V=1` shows the commands.
 say = $(if $(V),,@echo "  $1  $2" && )
 
 # $(call remember,FILE,TEXT): rewrites FILE when TEXT has changed; what depends on FILE follows changed options.
 remember = $(if $(filter-out x$(strip $(file <$1))x,x$(strip $2)x),$(shell mkdir -p $(dir $1))$(file >$1,$2))
+
+include boards/images.mk
+include $(sort $(wildcard sim/*.mk boards/*/board.mk host_tests/*.mk))
+
+UNITY := build/unity/unity.c
 
 # Objects are shared by what is compiled with the same options: a set is a configuration header, or the name of a
 # program with options of its own.

@@ -17,7 +17,7 @@ run-board-87c51fb: build/posix/fieldling-master build/87c51fb/fieldling-dp.ihx
 MCS51_BUDGETS = $(foreach b,87c51fb,$(wildcard boards/$b/budget.txt))
 SIZES  += size-mcs51
 STATIC += size-mcs51
-size-mcs51: build/87c51fb/fieldling-dp.ihx
+size-mcs51: build/87c51fb/fieldling-dp.ihx build/87c51fb/fieldling-modbus.ihx
 	@python3 host_tests/mcs51_size.py boards/87c51fb/budget.txt
 
 # ---- the contract of hal.h, compiled as the product is; a constant condition is no mistake in a test (126) ----

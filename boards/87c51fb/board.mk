@@ -8,6 +8,11 @@ FOSC ?= 12000000
 87c51fb_XRAM   := 0x7FE0
 87c51fb_HAL    := $(addprefix firmware/hal/mcs51/,machine.c serial.c silence.c held.c nv_ram.c con_none.c)
 
-87c51fb/fieldling-dp_SRC      := boards/87c51fb/main.c $(87c51fb_HAL) firmware/hal/mcs51/chunk.c $(filter-out %/fma_watch.c,$(DP_STATION)) boards/common/no_fma_watch.c
+87c51fb/fieldling-dp_SRC      := boards/common/main_mcs51_dp.c boards/87c51fb/board.c $(87c51fb_HAL) firmware/hal/mcs51/chunk.c $(filter-out %/fma_watch.c,$(DP_STATION)) boards/common/no_fma_watch.c
 87c51fb/fieldling-dp_DEFAULTS := $(DP_DEFAULTS)
 $(eval $(call mcs51_image,87c51fb,fieldling-dp))
+
+87c51fb/fieldling-modbus_SRC      := boards/common/main_mcs51_modbus.c boards/87c51fb/board.c $(87c51fb_HAL) $(MCS51_MODBUS)
+87c51fb/fieldling-modbus_DEFAULTS := $(MODBUS_DEFAULTS)
+87c51fb/fieldling-modbus_CFLAGS   := $(MCS51_MODBUS_CFLAGS)
+$(eval $(call mcs51_image,87c51fb,fieldling-modbus))

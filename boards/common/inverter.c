@@ -71,8 +71,9 @@ static uint16_t ramp(uint16_t time)
 {
     const uint32_t sum = (uint32_t)inv_params[INV_P_MAX_FREQ] + ramp_rest;
     const uint16_t steps = (uint16_t)(time * (100u / STEP_MS));
-    ramp_rest = (uint16_t)(sum % steps);
-    return (uint16_t)(sum / steps);
+    const uint16_t step = (uint16_t)(sum / steps);
+    ramp_rest = (uint16_t)(sum - (uint32_t)step * steps);
+    return step;
 }
 
 /* -> +1, -1, 0: how the frequency moves */
@@ -142,11 +143,9 @@ static void warm(void)
 }
 
 /* Two registers, high half first. */
-static void count(uint8_t register_high, uint16_t more)
+static void count(uint8_t register_high)
 {
-    const uint16_t low = inv_values[register_high + 1u];
-    inv_values[register_high + 1u] = (uint16_t)(low + more);
-    if (inv_values[register_high + 1u] < low)
+    if (++inv_values[register_high + 1u] == 0)
         inv_values[register_high]++;
 }
 
@@ -155,14 +154,11 @@ static void account(void)
 {
     const uint32_t watts =
         (uint32_t)inv_values[INV_V_OUTPUT_VOLTAGE] * inv_values[INV_V_OUTPUT_CURRENT] / 1000u * 173u / 100u;
-    work += watts * STEP_MS;
-    if (work >= 360000u) {
-        count(INV_V_ENERGY_HIGH, (uint16_t)(work / 360000u));
-        work %= 360000u;
-    }
+    for (work += watts * STEP_MS; work >= 360000u; work -= 360000u) /* 20 times at most */
+        count(INV_V_ENERGY_HIGH);
     if (inv_values[INV_V_OUTPUT_FREQ] && (run_ms = (uint16_t)(run_ms + STEP_MS)) >= 1000u) {
         run_ms = 0;
-        count(INV_V_RUN_SECONDS_HIGH, 1);
+        count(INV_V_RUN_SECONDS_HIGH);
     }
 }
 

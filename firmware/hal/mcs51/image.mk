@@ -4,20 +4,28 @@
 #
 # after setting  BOARD_CONFIG, BOARD_CODE, BOARD_XRAM   configuration header, octets of program memory and external RAM
 #                BOARD/NAME_SRC, BOARD/NAME_DEFAULTS    C files; the one with main() first
-#                BOARD_CFLAGS                           what else the compiler should know
+#                BOARD_CFLAGS, BOARD/NAME_CFLAGS        what else the compiler should know
 
 # --nooverlay: SDCC would share the memory of locals between functions without asking which of them are interrupts.
 MCS51_CC = sdcc -mmcs51 --std-c11 --model-large --nooverlay --opt-code-size --Werror
 MCS51_INCLUDES = -Ifirmware -Ifirmware/hal/mcs51 -I. -Iboards/common
 
+mcs51_options = $(MCS51_CC) $(MCS51_INCLUDES) -Iboards/$1 -DFIELDLING_CONFIG='"$($1_CONFIG)"' $($1_CFLAGS) $($1/$2_CFLAGS)
+
+# The Modbus inverter. Every octet is looked at: it must last longer than the receiver takes (s51_modbus.py). Answers are
+# sent octet by octet, main going on meanwhile; a gap below 1.5 characters is none. 110, 126: an `if` on a constant.
+MCS51_MODBUS = firmware/hal/mcs51/octet.c $(filter-out boards/common/main_modbus.c boards/common/line_console.c,$(CONSOLE_MODBUS))
+MCS51_MODBUS_CFLAGS = -DMB_CONFIG='"inverter_mb.h"' -DMB_WITH_LUMPS=0 -DMIN_OCTET_CYCLES=250u -DPOLLED_BIT_CYCLES=1u \
+                      --disable-warning 110 --disable-warning 126
+
 # C to assembly (build/BOARD/NAME.c/), functions nobody calls left out (build/BOARD/NAME/), then assembled and linked.
 ifndef mcs51_image
 define mcs51_image # BOARD NAME
+$$(call remember,build/$1/$2.c/options,$$(call mcs51_options,$1,$2))
 build/$1/$2.c/%.asm: %.c $$(wildcard firmware/*.h firmware/*/*.h firmware/hal/mcs51/*.h boards/common/*.h boards/$1/*.h) \
-                     firmware/hal/mcs51/image.mk boards/$1/board.mk
+                     firmware/hal/mcs51/image.mk build/$1/$2.c/options
 	@mkdir -p $$(@D)
-	$$(call say,SDCC,$$@)out=$$$$($$(MCS51_CC) $$(MCS51_INCLUDES) -Iboards/$1 $$($1_CFLAGS) \
-	    -DFIELDLING_CONFIG='"$$($1_CONFIG)"' -S $$< -o $$@ 2>&1) && test -z "$$$$out" || { echo "$$$$out"; rm -f $$@; exit 1; }
+	$$(call say,SDCC,$$@)out=$$$$($$(call mcs51_options,$1,$2) -S $$< -o $$@ 2>&1) && test -z "$$$$out" || { echo "$$$$out"; rm -f $$@; exit 1; }
 build/$1/$2.ihx: $$(patsubst %.c,build/$1/$2.c/%.asm,$$($1/$2_SRC) $$($1/$2_DEFAULTS)) firmware/hal/mcs51/strip_unused.py
 	$$(call say,LINK51,$$@)sh firmware/hal/mcs51/link.sh build/$1/$2 "$$($1/$2_SRC)" "$$($1/$2_DEFAULTS)" \
 	    $$(MCS51_CC) --code-size $$($1_CODE) --xram-size $$($1_XRAM) --iram-size 256

@@ -16,10 +16,15 @@
 
 /* Below this an interrupt for each octet takes nearly all of the time there is: stay until the telegram is over. */
 #define BURST_OCTET_CYCLES 150u
-/* Below this the receiver of the DP stack cannot follow: 100 cycles are 110 kbit/s at 12 MHz. */
-#define MIN_N (100u * 3u / 88u + 1u) /* an octet lasts 88 N / 3 cycles */
+/* Below this the receiver of the stack cannot follow; of DP: 100 cycles are 110 kbit/s at 12 MHz. */
+#ifndef MIN_OCTET_CYCLES
+#define MIN_OCTET_CYCLES 100u
+#endif
+#define MIN_N (MIN_OCTET_CYCLES * 3u / 88u + 1u) /* an octet lasts 88 N / 3 cycles */
 /* Below this an interrupt an octet would leave gaps: stay until all are sent. */
+#ifndef POLLED_BIT_CYCLES
 #define POLLED_BIT_CYCLES 80u
+#endif
 /* our choice: what a UART on the other side bears with its own share, PROFIBUS and Modbus alike. */
 #define MAX_ERROR_PERCENT 1u
 
