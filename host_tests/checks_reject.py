@@ -10,6 +10,7 @@ import shlex
 import subprocess
 import sys
 import tempfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 HERE = Path(__file__).parent
@@ -20,35 +21,72 @@ def run(*command):
     return done.returncode != 0, done.stdout
 
 
+def compiled(source, target):
+    """-> SDCC's failed runs"""
+    sdcc = shlex.split(os.environ["FIELDLING_SDCC"])
+    if Path(source).name == "overlay.c":  # shows what --nooverlay is for
+        sdcc.remove("--nooverlay")
+    return [run(*sdcc, "-c", str(source), "-o", str(target))]
+
+
+def check_object(sample, folder):
+    """One file by itself."""
+    checks = compiled(sample, folder / "sample.rel")
+    if not checks[0][0]:
+        checks.append(run(sys.executable, str(HERE / "check_contexts.py"), str(folder / "sample.asm")))
+    return checks
+
+
+def check_linked(sample, folder):
+    """bad_samples/image/: an image, with a main() that does nothing where the sample has none.
+
+    "doctor: OLD -> NEW" changes what the compiler made, "budget: FIGURES" is the image's row in a budget."""
+    text, parts = sample.read_text(), folder / "x"
+    parts.mkdir()
+    (folder / "sample.c").write_text(text)
+    (folder / "rest.c").write_text("void main(void)\n{\n    for (;;) {\n    }\n}\n")
+    names = ["sample"] if "void main(void)" in text else ["sample", "rest"]
+    checks = [done for name in names for done in compiled(folder / f"{name}.c", parts / f"{name}.rel")]
+    doctor = re.search(r"doctor: (.+) -> (.+)", text)
+    for name in names if doctor else ():
+        asm = parts / f"{name}.asm"
+        asm.write_text(asm.read_text().replace(*doctor.groups()))
+        checks.append(run("sdas8051", "-plosgff", str(parts / f"{name}.rel"), str(asm)))
+    ihx, rels = str(folder / "x.ihx"), [str(parts / f"{name}.rel") for name in names]
+    checks.append(run("sdcc", "-mmcs51", "--model-large", "--iram-size", "256", *rels, "-o", ihx))
+    checks.append(run(sys.executable, str(HERE / "check_image.py"), "--root", str(folder), ihx))
+    budget = re.search(r"budget: ([\d ]+)", text)
+    if budget:
+        (folder / "budget.txt").write_text("x " + budget[1])
+        checks.append(run(sys.executable, str(HERE / "mcs51_size.py"), "--budget", str(folder / "budget.txt"), ihx))
+    return checks
+
+
 def findings(sample, folder):
     """Output of the checks that fail for the sample."""
     checks = [run(sys.executable, str(HERE / "check_sources.py"), str(sample))]
-    text = sample.read_text()
-    if not re.search(r"^#include (\"(ddlm|hal/posix)|<unistd)", text, re.M):
-        # overlay.c shows what --nooverlay is for
-        sdcc = shlex.split(os.environ["FIELDLING_SDCC"])
-        if sample.name == "overlay.c":
-            sdcc.remove("--nooverlay")
-        # the rest of an image, for rules that need to see all of it
-        (Path(folder) / "rest.c").write_text("void main(void)\n{\n    for (;;)\n        ;\n}\n")
-        for source, name in ((str(sample), "sample"), (f"{folder}/rest.c", "rest")):
-            checks.append(run(*sdcc, "-c", source, "-o", f"{folder}/{name}.rel"))
-        if not checks[-1][0] and not checks[-2][0]:
-            checks.append(run(sys.executable, str(HERE / "check_contexts.py"), "--sources", str(HERE / "bad_samples"),
-                              f"{folder}/sample.asm", f"{folder}/rest.asm"))
+    if sample.parent.name == "image":
+        checks += check_linked(sample, folder)
+    elif not re.search(r"^#include (\"(ddlm|hal/posix)|<unistd)", sample.read_text(), re.M):
+        checks += check_object(sample, folder)
     return "".join(output for failed, output in checks if failed)
+
+
+def judge(sample):
+    """-> (sample, is it good?, what was found)"""
+    with tempfile.TemporaryDirectory() as folder:
+        found = findings(sample, Path(folder))
+    expected = re.search(r"expect: (.+?)(?: \*/)?$", sample.read_text(), re.M)
+    return sample, expected.group(1) in found if expected else found == "", found
 
 
 def main():
     failures = 0
     samples = sorted((HERE / "bad_samples").rglob("*.c"))
-    for sample in samples:
-        with tempfile.TemporaryDirectory() as folder:
-            found = findings(sample, folder)
-        expected = re.search(r"expect: (.+?)(?: \*/)?$", sample.read_text(), re.M)
-        good = expected.group(1) in found if expected else found == ""
-        print(f"{sample}:1:{sample.stem}:" + ("PASS" if good else "FAIL: found " + (found or "nothing")))
-        failures += not good
+    with ThreadPoolExecutor(2) as pool:
+        for sample, good, found in pool.map(judge, samples):
+            print(f"{sample}:1:{sample.stem}:" + ("PASS" if good else "FAIL: found " + (found or "nothing")))
+            failures += not good
     print(f"\n{len(samples)} Tests {failures} Failures 0 Ignored")
     return 1 if failures else 0
 

@@ -90,15 +90,6 @@ SCRIPT_TESTS_ONCE += host_tests/hdlc_chip.py
 host_tests/hdlc_chip.py_TIMEOUT = 400
 
 BENCHES += bench-hdlc-chip
-SIZES   += size-hdlc
-.PHONY: bench-hdlc-chip size-hdlc
+.PHONY: bench-hdlc-chip
 bench-hdlc-chip: $(foreach t,$(HDLC_IMAGES),build/87c51fb_hdlc/module-$t.ihx)
 	@python3 host_tests/hdlc_chip.py --figures
-size-hdlc: $(foreach t,$(HDLC_IMAGES),build/87c51fb_hdlc/module-$t.ihx)
-	@python3 host_tests/hdlc_chip.py test_images_are_within_the_budget
-
-STATIC += check-hdlc-contexts
-.PHONY: check-hdlc-contexts
-check-hdlc-contexts: build/87c51fb_hdlc/module-ai.ihx
-	@python3 host_tests/check_contexts.py --sources firmware --sources boards \
-	    $$(find build/87c51fb_hdlc/module-ai -name '*.asm')

@@ -13,12 +13,18 @@ bench-s51: build/87c51fb/fieldling-dp.ihx
 run-board-87c51fb: build/posix/fieldling-master build/87c51fb/fieldling-dp.ihx
 	@python3 host_tests/run_board.py 87c51fb
 
-# make size and make check: every image within its board's budget.txt
-MCS51_BUDGETS = $(foreach b,87c51fb,$(wildcard boards/$b/budget.txt))
+# make size and make check: every image that image.mk builds keeps interrupts apart and is within its board's budget.txt.
+# What went into build/BOARD/IMAGE.ihx lies in the folder build/BOARD/IMAGE.
 SIZES  += size-mcs51
-STATIC += size-mcs51
-size-mcs51: build/87c51fb/fieldling-dp.ihx build/87c51fb/fieldling-modbus.ihx
-	@python3 host_tests/mcs51_size.py boards/87c51fb/budget.txt
+STATIC += size-mcs51 check-mcs51-images
+.SECONDEXPANSION:
+size-mcs51: $$(MCS51_IMAGES)
+	@python3 host_tests/mcs51_size.py $(MCS51_IMAGES)
+check-mcs51-images: $$(MCS51_IMAGES)
+	@for image in $(MCS51_IMAGES:.ihx=); do \
+	    python3 host_tests/check_contexts.py $$(find $$image -name '*.asm') || exit 1; \
+	done
+	@python3 host_tests/check_image.py $(MCS51_IMAGES)
 
 # ---- the contract of hal.h, compiled as the product is; a constant condition is no mistake in a test (126) ----
 
@@ -27,12 +33,10 @@ S51_CONTRACT_REL := $(patsubst %.c,build/s51_contract/%.rel,$(S51_CONTRACT_SRC))
 S51_CONTRACT_CC   = $(MCS51_CC) --disable-warning 126 -Ihost_tests/contract/s51 -Ihost_tests $(MCS51_INCLUDES) \
                     -Iboards/87c51fb -DFOSC_HZ=12000000ul
 
-# named by its map: static.mk looks for the parts of a .ihx in a folder that only image.mk makes
-BOARD_IMAGES += build/s51_contract/hal_contract.map
+BOARD_IMAGES += build/s51_contract/hal_contract.ihx
 build/s51_contract/%.rel: %.c $(wildcard firmware/*.h firmware/hal/*.h firmware/hal/mcs51/*.h host_tests/contract/s51/*.h) \
                           host_tests/hal_contract.h boards/87c51fb/wiring.h host_tests/mcs51.mk
 	@mkdir -p $(@D)
 	$(call say,SDCC,$@)$(S51_CONTRACT_CC) -c $< -o $@
-build/s51_contract/hal_contract.map: build/s51_contract/hal_contract.ihx
 build/s51_contract/hal_contract.ihx: $(S51_CONTRACT_REL)
 	$(call say,LINK51,$@)$(S51_CONTRACT_CC) --code-size $(87c51fb_CODE) --xram-size $(87c51fb_XRAM) --iram-size 256 $^ -o $@

@@ -9,6 +9,9 @@ A request that gets no answer is repeated, as a master does (max_retry); how oft
 import sys
 from pathlib import Path
 
+from check_image import load
+from stack51 import Stack, measured
+
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "sim" / "s51"))
 import chip as s51  # noqa: E402
@@ -104,6 +107,15 @@ def scene(n):
             print(f"{rate:6d}  {name:14s} T_SDR {turn:6.1f} T_bit   TI to next octet {gap:4.0f} cycles   repeats {repeats}")
         silent(chip, rate)
         share(chip, n, rate)
+        stack(chip, rate)
+
+
+def stack(chip, rate):
+    """What was measured is no more than what the calls allow; were it more, stack51.py would have missed some."""
+    program = load(IMAGE)
+    deepest, worst = measured(program, chip.highest_sp()), Stack(program).worst
+    check(f"stack at {rate}", 20 < deepest <= worst, f"{deepest} octets, by the calls {worst}")
+    print(f"{rate:6d}  stack: {deepest} octets, by the calls {worst}, room for {program.image.stack_room}")
 
 
 def silent(chip, rate):

@@ -26,20 +26,10 @@ build/blank/cortexm0/%.o: %.c $(HEADERS) host_tests/static.mk
 STATIC += check-mcs51 check-cortexm0 check-sources
 
 check-mcs51: $(sort $(BLANK_RELS) $(patsubst %.c,build/blank/mcs51/%.rel,$(BLANK_APPS)))
-	@python3 host_tests/check_contexts.py --sources firmware $(^:.rel=.asm)
+	@python3 host_tests/check_contexts.py $(^:.rel=.asm)
 
 check-cortexm0: $(BLANK_OBJS)
 	@:
-
-# The 8051 images: what went into build/BOARD/IMAGE.ihx lies in the folder build/BOARD/IMAGE.
-STATIC += check-mcs51-images
-IHX = $(filter-out build/blank/%,$(filter %.ihx,$(BOARD_IMAGES)))
-.SECONDEXPANSION:
-check-mcs51-images: $$(IHX)
-	@for image in $(IHX:.ihx=); do \
-	    echo "$$image:" && \
-	    python3 host_tests/check_contexts.py --sources firmware --sources boards $$(find $$image -name '*.asm') || exit 1; \
-	done
 
 # The bad samples break the rules on purpose, and the check names what it looks for.
 check-sources:

@@ -152,6 +152,10 @@ class Chip:
         clocks = {name: int(n) for name, n in re.findall(r'\("(\w+)"\).*\((\d+) clks\)', text)}
         return clocks["time"] / CLOCKS, clocks["isr"] / CLOCKS
 
+    def highest_sp(self):
+        """The stack pointer's highest value since the start."""
+        return int(re.search(r"Max value of stack pointer= (0x\w+)", self.command("state"))[1], 16)
+
     # ---- the line ----
 
     def wait_for_rate(self, n):

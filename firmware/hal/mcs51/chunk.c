@@ -34,8 +34,8 @@ static void fill_isr(void) __using(2) __naked
         mov _octet_err,#0
         clr _endless
         setb _armed
-        .globl _fill_wait
-    _fill_wait:
+        .globl _fill_wait_isr
+    _fill_wait_isr:
     00001$:
         jb _RI,00002$
         jnb _TF0,00001$

@@ -6,9 +6,12 @@ set -e
 image=$1
 sources=$(for c in $2; do echo "$image/${c%.c}"; done)
 defaults=$(for c in $3; do echo "$image/${c%.c}"; done)
-shift 3
 rm -rf "$image"
-cp -r "$image.c" "$image"
+for c in $2 $3; do
+    mkdir -p "$image/${c%/*}"
+    cp "$image.c/${c%.c}.asm" "$image/${c%.c}.asm"
+done
+shift 3
 python3 firmware/hal/mcs51/strip_unused.py $(for f in $sources; do echo "$f.asm"; done) >"$image.stripped"
 for f in $sources $defaults; do
     sdas8051 -plosgff "$f.rel" "$f.asm"
