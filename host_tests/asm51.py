@@ -213,15 +213,16 @@ class Image:
         self.code = {name: int(at, 16) for at, name in re.findall(r"^C:\s+([0-9A-F]{8})\s+(_\w+)", text, re.M)}
         self.names = {at: name for name, at in self.code.items()}
         self.sizes = {name: int(n, 16) for n, name in re.findall(r"^C:\s+([0-9A-F]{8})\s+l_(\w+)", text, re.M)}
-        self.parts = set(self.ihx.with_suffix(".lk").read_text().split()) | set(re.findall(r"\[ (\w+\.rel) \]", text))
+        self.folder = self.ihx.with_suffix("")  # of the .asm files
+        self.parts = re.findall(rf"^\S*\b{self.folder.name}/(\S+)\.rel$", self.ihx.with_suffix(".lk").read_text(), re.M)
+        self.members = re.findall(r"\[ (\w+)\.rel \]", text)
         stack, self.stack_room = re.search(r"Stack starts at: 0x(\w+) .* with (\d+) bytes",
                                            self.ihx.with_suffix(".mem").read_text()).groups()
         self.stack_start, self.stack_room = int(stack, 16), int(self.stack_room)
 
     def has(self, asm):
         """Was this file linked? Of a library only what is called for is."""
-        rel = Path(asm).with_suffix(".rel")
-        return str(rel) in self.parts or rel.name in self.parts
+        return str(asm.relative_to(self.folder).with_suffix("")) in self.parts or asm.stem in self.members
 
     def target(self, at):
         """Name of what the instruction at this address jumps to; None where it is no such jump."""

@@ -26,7 +26,10 @@ DEFINITION = re.compile(r"\b(\w+)\s*\([^;{}()]*\)\s*__interrupt\s*\(([^)]*)\)[^;
 
 def load(ihx):
     image = Image(ihx)
-    return Program([str(path) for path in sorted(image.ihx.with_suffix("").rglob("*.asm")) if image.has(path)], image)
+    paths = [str(path) for path in sorted(image.folder.rglob("*.asm")) if image.has(path)]
+    if len(paths) < len(image.parts):
+        raise FileNotFoundError(f"{image.folder}: not all of {', '.join(image.parts)}")
+    return Program(paths, image)
 
 
 def defined_interrupts(root, ihx, program):
