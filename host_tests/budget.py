@@ -25,7 +25,7 @@ import tempfile
 import time
 import tty
 
-from machine import Machine, qemu
+from machine import Machine, image_path, qemu
 from raw_master import RawMaster
 from run_board import ADDRESS, DELIVERED, MASTER, RATE, set_address
 from station import expect, run_tests
@@ -76,11 +76,10 @@ class Symbols:
 
 def traced(board, image, pieces, folder):
     """Let the image hear pieces, one in 1.5 ms (less than T_SYN at 9600 bit/s), and answer. -> (function, is its first) of each instruction"""
-    path = f"build/{board}/{image}.{'bin' if board == 'com86' else 'elf'}"
     log = f"{folder}/{board}-{image}.log"
     ours, theirs = pty.openpty()
     tty.setraw(theirs)
-    command = qemu(path, console="null,id=console", line=f"serial,id=line,path={os.ttyname(theirs)}", events=log,
+    command = qemu(board, image_path(board, image), console="null,id=console", line=f"serial,id=line,path={os.ttyname(theirs)}", events=log,
                    more=["-singlestep", "-d", "exec,nochain"])
     with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
         try:

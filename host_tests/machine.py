@@ -3,26 +3,36 @@ import queue
 import re
 import shutil
 import tempfile
+from typing import NamedTuple
 
 from station import Station
 
+
+class Board(NamedTuple):
+    command: list  # QEMU, the machine
+    suffix: str    # of the images
+    load: str      # the options that load the image at {}
+    exit_shift: int = 0  # how far QEMU's exit status holds that of the image's main() to the left
+
+
 BOARDS = {
-    "com86": ["qemu-system-i386", "-M", "pc", "-cpu", "486", "-m", "1", "-no-reboot",
-              "-device", "isa-debug-exit,iobase=0xf4,iosize=4"],
-    "lm3s6965evb": ["qemu-system-arm", "-M", "lm3s6965evb", "-semihosting-config", "enable=on,target=native"],
+    "com86": Board(["qemu-system-i386", "-M", "pc", "-cpu", "486", "-m", "1", "-no-reboot",
+                    "-device", "isa-debug-exit,iobase=0xf4,iosize=4"], "bin", "-drive if=pflash,format=raw,file={}",
+                   exit_shift=1),
+    "lm3s6965evb": Board(["qemu-system-arm", "-M", "lm3s6965evb", "-semihosting-config", "enable=on,target=native"],
+                         "elf", "-kernel {}"),
 }
 
 
-def board_of(path):
-    return "com86" if path.endswith(".bin") else "lm3s6965evb"
+def image_path(board, image):
+    return f"build/{board}/{image}.{BOARDS[board].suffix}"
 
 
-def qemu(path, console, line, trace=(), events=None, more=()):
-    """The command that runs the image at path; console and line are character devices with id=console and id=line. What
-    COM86 writes into its flash is kept in the file at path."""
-    board = board_of(path)
-    flash = ["-drive", f"if=pflash,format=raw,file={path}"] if board == "com86" else ["-kernel", path]
-    return [*BOARDS[board], *flash, "-display", "none", "-nodefaults", "-monitor", "none", "-net", "none",
+def qemu(board, path, console, line, trace=(), events=None, more=()):
+    """The command that runs the board's image at path; console and line are character devices with id=console and
+    id=line. What COM86 writes into its flash is kept in the file at path."""
+    return [*BOARDS[board].command, *BOARDS[board].load.format(path).split(), "-display", "none", "-nodefaults",
+            "-monitor", "none", "-net", "none",
             "-chardev", console, "-serial", "chardev:console", "-chardev", line, "-serial", "chardev:line",
             *(["-D", events] if events else []), *[word for event in trace for word in ("-trace", event)], *more]
 
@@ -33,11 +43,10 @@ class Machine(Station):
 
     def __init__(self, board, image, flash=None, trace=(), more=()):
         self.folder = tempfile.mkdtemp(prefix="fieldling-")
-        suffix = "bin" if board == "com86" else "elf"
-        self.flash = flash or shutil.copy(f"build/{board}/{image}.{suffix}", self.folder)
+        self.flash = flash or shutil.copy(image_path(board, image), self.folder)
         self.redirected = []
         self.events = f"{self.folder}/events"
-        self._start(qemu(self.flash, "stdio,id=console,signal=off", "pty,id=line", trace, self.events, more))
+        self._start(qemu(board, self.flash, "stdio,id=console,signal=off", "pty,id=line", trace, self.events, more))
         try:
             self.wait(lambda: self.redirected, "the line")
             self.pty = self.redirected[0]

@@ -12,23 +12,20 @@ import subprocess
 import sys
 import time
 import tty
+from pathlib import Path
 
-from machine import qemu
+from machine import BOARDS, qemu
 
 ECHO_AFTER = 0.030
 PATIENCE = 60.0
 
 
-def status_of(path, returncode):
-    """What the test's main() returned."""
-    return returncode >> 1 if path.endswith(".bin") else returncode
-
-
 def run(path):
-    """-> (status, output) of one image; its line hears its own echo."""
+    """-> (what the test's main() returned, output) of the image build/BOARD/x; its line hears its own echo."""
+    board = Path(path).parent.name
     ours, theirs = pty.openpty()
     tty.setraw(theirs)
-    command = qemu(path, console="stdio,id=console,signal=off", line=f"serial,id=line,path={os.ttyname(theirs)}",
+    command = qemu(board, path, console="stdio,id=console,signal=off", line=f"serial,id=line,path={os.ttyname(theirs)}",
                    more=("-icount", "shift=5"))
     end = time.monotonic() + PATIENCE
     heard = b""
@@ -48,7 +45,7 @@ def run(path):
                 output += more
         else:
             process.kill()
-        status = status_of(path, process.wait())
+        status = process.wait() >> BOARDS[board].exit_shift
     os.close(ours)
     os.close(theirs)
     return status, output.decode(errors="replace").replace("\r", "")

@@ -71,6 +71,8 @@ run-board-%: build/posix/fieldling-master
 flash-which-board:
 	@echo "make flash BOARD=bluepill" >&2; exit 1
 
+SCRIPT_TESTS_ONCE += host_tests/flash.py
+
 # ---- what a station takes without board and application -----------------------------------------------------------------
 
 # The stack and the defaults of its callbacks as objects, before linking: what an application does not call is counted too;

@@ -13,12 +13,4 @@ BOARD_IMAGES += build/bluepill/fieldling-dp.bin build/bluepill/fieldling-modbus.
 IMAGE ?= fieldling-dp
 .PHONY: flash-bluepill
 flash-bluepill: build/bluepill/$(IMAGE).bin
-	@if command -v openocd >/dev/null; then \
-	    openocd -f interface/stlink.cfg -f target/stm32f1x.cfg -c "program $< 0x08000000 verify reset exit" || \
-	        { echo "flash: OpenOCD found no ST-Link or no STM32F1 behind it (its words are above)" >&2; exit 1; }; \
-	elif command -v st-flash >/dev/null; then \
-	    st-flash --reset write $< 0x08000000 || \
-	        { echo "flash: st-flash found no ST-Link or no STM32F1 behind it (its words are above)" >&2; exit 1; }; \
-	else \
-	    echo "flash: neither openocd nor st-flash is installed; the image is $<" >&2; exit 1; \
-	fi
+	@sh boards/bluepill/flash.sh $<
