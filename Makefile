@@ -12,6 +12,7 @@
 #                                       of the same name in _SRC takes the place of the default; optional
 #   UNIT_TESTS   += test_x              host_tests/test_x.c with Unity -> build/test/test_x, and build/asan/test_x
 #     test_x_SRC                        the files under test
+#     test_x_MAIN                       the tests, when they are not in host_tests/test_x.c; optional
 #     test_x_CONFIG, _CFLAGS, _LDLIBS, _DEFAULTS as above; test_x_TIMEOUT [s]
 #   SCRIPT_TESTS += host_tests/x.py     ends with Unity's summary line; finds its programs in $FIELDLING_BIN;
 #     host_tests/x.py_TIMEOUT [s]       run with the gcc programs and again with the sanitized ones
@@ -99,7 +100,7 @@ build/$1/obj/$2.a: $(call objects,$1,$2,$($2_DEFAULTS)) build/$1/obj/$2.parts
 -include $(patsubst %.o,%.d,$(call objects,$1,$2,$3 $($2_DEFAULTS)))
 endef
 
-test_sources = $(UNITY) host_tests/$1.c $($1_SRC)
+test_sources = $(UNITY) $(or $($1_MAIN),host_tests/$1.c) $($1_SRC)
 
 # $(call build,VARIANT,NAME,SOURCES): the rules for one program, and for its set of objects if they are not there yet
 build = $(if $(rule_$1_$(call objset,$2)),,$(eval $(call compile_rule,$1,$(call objset,$2),$(call options,$2))))\

@@ -2,6 +2,8 @@
 
 UNIT_TESTS += test_pa_frame
 test_pa_frame_SRC = firmware/fdl/pa_frame.c
+UNIT_TESTS += test_pa_errors
+test_pa_errors_SRC = firmware/fdl/pa_frame.c
 
 # ---- GSD: gsd/FLDL1234.GSD is committed; a test proves that it is what the configuration says ---------------
 

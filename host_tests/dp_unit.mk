@@ -1,4 +1,25 @@
-# Unit tests of the DP stack, module by module, on a machine without time (fake_hal.c).
+# Module tests on a machine without time (fake_hal.c): the same sources and assertions on the host and on the targets.
+
+# $(call portable_test,TEST,SET,SOURCES,OPTIONS,DEFAULTS): host_tests/TEST.c is to run on the targets, too (targets.mk,
+# s51_units.mk), with these sources. Tests of a SET have the same OPTIONS and share objects.
+define portable_test
+PORTABLE_TESTS += $1
+$1_PORTABLE_SET := $2
+$1_PORTABLE_SRC := $3
+$1_PORTABLE_OPTIONS := $4
+$1_PORTABLE_DEFAULTS := $5
+endef
+
+# $(call fake_test,TEST): a portable test whose host program runs on the virtual line, on the fake port as test fake_TEST.
+define fake_test
+UNIT_TESTS += fake_$1
+fake_$1_MAIN := host_tests/$1.c
+fake_$1_SRC := $($1_PORTABLE_SRC)
+fake_$1_CFLAGS := $($1_PORTABLE_OPTIONS)
+fake_$1_DEFAULTS := $($1_PORTABLE_DEFAULTS)
+endef
+
+# ---- the DP stack ----------------------------------------------------------------------------------------------------
 
 FDL_UNIT_TESTS  := $(addprefix test_fdl_,services retry sap small) test_fma
 DDLM_UNIT_TESTS := $(addprefix test_ddlm_,prm cfg diag data addr wd states no_inputs no_outputs plain adapt)
@@ -31,3 +52,20 @@ test_ddlm_no_inputs_CONFIG := host_tests/config/unit_no_inputs.h
 test_ddlm_no_outputs_CONFIG := host_tests/config/unit_no_outputs.h
 test_ddlm_adapt_CONFIG := host_tests/config/unit_adapt.h
 $(foreach t,$(DP_UNIT_TESTS),$(eval $(t)_CONFIG ?= host_tests/config/unit_dp.h))
+$(foreach t,$(DP_UNIT_TESTS),$(eval $(call portable_test,$t,$(basename $(notdir $($t_CONFIG))),\
+    $($t_SRC),-DFIELDLING_CONFIG='"$($t_CONFIG)"',$($t_DEFAULTS))))
+
+# ---- the rest ----------------------------------------------------------------------------------------------------------
+
+UNIT_TESTS += test_nv_log test_con_in test_crc16 test_crc16_small
+test_nv_log_SRC := firmware/hal/nv_log.c
+test_con_in_SRC := firmware/hal/con_in.c
+test_crc16_SRC  := firmware/crc16.c
+test_crc16_small_MAIN   := host_tests/test_crc16.c
+test_crc16_small_SRC    := firmware/crc16.c
+test_crc16_small_CFLAGS := -DCRC16_ENTRIES=16
+$(eval $(call portable_test,test_nv_log,plain,$(test_nv_log_SRC)))
+$(eval $(call portable_test,test_con_in,plain,$(test_con_in_SRC)))
+$(eval $(call portable_test,test_crc16,plain,$(test_crc16_SRC)))
+$(eval $(call portable_test,test_crc16_small,small,$(test_crc16_small_SRC),$(test_crc16_small_CFLAGS)))
+$(eval $(call portable_test,test_pa_frame,plain,firmware/fdl/pa_frame.c))

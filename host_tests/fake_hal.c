@@ -19,6 +19,7 @@ void fake_begin(void)
     fake.format = 0xFF;
     fake.opens = 0;
     fake.limit = 0;
+    fake.armed = false;
     fake.sent_len = 0;
     fake.sends = 0;
     fake.sending = false;
@@ -111,6 +112,7 @@ uint8_t hal_line_open(uint32_t bit_per_s, uint8_t format)
     fake.rate = bit_per_s;
     fake.format = format;
     fake.limit = 0;
+    fake.armed = false;
     fake.sending = false;
     fake.opens++;
     return fake.line;
@@ -126,6 +128,7 @@ void hal_silence(hal_dur_t d) IN_ISR
 {
     isr_service();
     fake.limit = d;
+    fake.armed = d != 0;
 }
 
 void hal_send(const uint8_t XDATA *octets, uint16_t n) IN_ISR
@@ -154,6 +157,7 @@ static void enter_isr(void)
 void fake_octet(uint8_t octet, uint8_t err)
 {
     enter_isr();
+    fake.armed = fake.limit != 0;
     line_octet_isr(octet, err);
     fake.isr--;
 }
@@ -161,6 +165,7 @@ void fake_octet(uint8_t octet, uint8_t err)
 void fake_silence(void)
 {
     enter_isr();
+    fake.armed = false;
     line_silence_isr();
     fake.isr--;
 }
@@ -169,6 +174,7 @@ void fake_sent(void)
 {
     enter_isr();
     fake.sending = false;
+    fake.armed = fake.limit != 0;
     line_sent_isr();
     fake.isr--;
 }

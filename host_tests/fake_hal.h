@@ -11,6 +11,7 @@
 #include "unity.h"
 
 #define FAKE_NV_UNLIMITED 255u
+#define FAKE_SENT_MAX     513u /* the longest frame of all, in Modbus ASCII */
 
 /* What was done wrong; bits of fake.misuse. */
 #define FAKE_UNLOCKED   0x01u /* an isr service called from main without the lock       */
@@ -32,7 +33,8 @@ struct fake_machine {
     uint8_t format;
     uint8_t opens;
     hal_dur_t limit;      /* of silence [T_bit]                                    */
-    uint8_t sent[256];    /* last frame given to hal_send()                        */
+    bool armed;           /* the next silence of that length has not been told     */
+    uint8_t sent[FAKE_SENT_MAX]; /* last frame given to hal_send()                 */
     uint16_t sent_len;    /* 0: none since the last request()                      */
     uint8_t sends;        /* frames in all                                         */
     bool sending;

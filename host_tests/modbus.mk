@@ -1,9 +1,10 @@
-# Modbus: unit tests in virtual time, the host station against foreign clients, figures.
+# Modbus: unit tests in virtual time and on the fake port, the host station against foreign clients, figures.
 
 MB_STATION  = firmware/crc16.c $(wildcard firmware/modbus/mb_*.c)
 MB_DEFAULTS = $(wildcard firmware/modbus/default_*.c)
+MB_FAKE     = host_tests/fake_hal.c host_tests/modbus_client_fake.c sim/modbus_frame.c
 
-MB_UNIT_TESTS = test_modbus_functions test_modbus_identification test_modbus_line test_modbus_noise
+MB_UNIT_TESTS = test_modbus_functions test_modbus_identification test_modbus_line test_modbus_time test_modbus_noise
 define mb_unit_test
 UNIT_TESTS += $1
 $1_SRC      = host_tests/modbus_fixture.c sim/modbus_client.c sim/modbus_frame.c $$(HAL_VIRTUAL) $$(MB_STATION)
@@ -11,6 +12,12 @@ $1_DEFAULTS = $$(MB_DEFAULTS)
 $1_CFLAGS   = -DMB_CONFIG='"host_tests/mb_test.h"'
 endef
 $(foreach t,$(MB_UNIT_TESTS),$(eval $(call mb_unit_test,$t)))
+
+# Those that need no finer time than a bit run on the fake port, too.
+MB_PORTABLE := $(addprefix test_modbus_,functions identification line)
+$(foreach t,$(MB_PORTABLE),$(eval $(call portable_test,$t,mb_test,host_tests/modbus_fixture.c $(MB_FAKE) $(MB_STATION),\
+    -DMB_CONFIG='"host_tests/mb_test.h"',$(MB_DEFAULTS))))
+$(foreach t,$(MB_PORTABLE),$(eval $(call fake_test,$t)))
 
 PROGRAMS += fieldling-modbus
 fieldling-modbus_SRC      = boards/posix/fieldling_modbus.c boards/posix/mb_image.c boards/posix/mb_trace.c \
@@ -44,12 +51,14 @@ build-tests: build/posix/modbus-live
 run-modbus: build/posix/modbus-live build/posix/fieldling-modbus
 	@build/posix/modbus-live build/posix/fieldling-modbus
 
+INVERTER := $(addprefix boards/common/inverter,.c _store.c _modbus.c _bind.c)
 UNIT_TESTS += test_modbus_inverter
-test_modbus_inverter_SRC      = boards/common/inverter.c boards/common/inverter_store.c boards/common/inverter_modbus.c \
-                                boards/common/inverter_bind.c sim/modbus_client.c sim/modbus_frame.c $(HAL_VIRTUAL) \
-                                $(MB_STATION)
+test_modbus_inverter_SRC      = $(INVERTER) sim/modbus_client.c sim/modbus_frame.c $(HAL_VIRTUAL) $(MB_STATION)
 test_modbus_inverter_DEFAULTS = $(MB_DEFAULTS)
 test_modbus_inverter_CFLAGS   = -DMB_CONFIG='"inverter_mb.h"' -Iboards/common
+$(eval $(call portable_test,test_modbus_inverter,inverter,$(INVERTER) $(MB_FAKE) $(MB_STATION),\
+    -DMB_CONFIG='"inverter_mb.h"',$(MB_DEFAULTS)))
+$(eval $(call fake_test,test_modbus_inverter))
 
 # The README's tables and example.
 SCRIPT_TESTS_ONCE += host_tests/modbus_readme.py host_tests/modbus_rows.py

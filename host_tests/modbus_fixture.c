@@ -3,7 +3,6 @@
 #include "modbus/mb_line.h"
 #include "unity.h"
 
-#include <stdio.h>
 #include <string.h>
 
 struct mbc client;
@@ -48,8 +47,8 @@ uint8_t mb_check_ind(void)
         for (uint16_t i = 0; i < mb_span.qty; i++)
             if (mb_span_get(i) == 0xDEAD)
                 return MB_ILLEGAL_VALUE;
-    if (mb_span.write && fx.spend)
-        hv_spend(fx.spend);
+    if (mb_span.write && fx.slow)
+        fx.slow();
     return mb_span.write ? fx.veto : fx.read_veto;
 }
 
@@ -168,10 +167,8 @@ void fixture_begin(uint8_t address, uint8_t mode)
 {
     memset(&fx, 0, sizeof fx);
     fill();
-    hv_begin();
     mbc_begin(&client);
     client.coding.mode = mode == MB_ASCII ? MBC_ASCII : MBC_RTU;
-    hal_init();
     memset(&mb_port, 0, sizeof mb_port);
     memset(&mb_diag, 0, sizeof mb_diag);
     mb_log_clear();
@@ -180,79 +177,109 @@ void fixture_begin(uint8_t address, uint8_t mode)
     mb_port.mode = mode;
     mb_port.address = address;
     TEST_ASSERT_EQUAL(HAL_LINE_TIMED, mb_open());
-    hv_set_loop(mb_poll, NULL);
-    hal_irq_restore(HAL_IRQ_ON);
+    mbc_power_on(mb_poll);
     mbc_idle(50);
+}
+
+static uint8_t digit(char c)
+{
+    return (uint8_t)(c <= '9' ? c - '0' : c - 'A' + 10);
 }
 
 unsigned hex_octets(const char *hex, uint8_t *octets)
 {
-    unsigned n = 0, value;
-    int used;
-    while (sscanf(hex, " %2x%n", &value, &used) == 1) {
-        octets[n++] = (uint8_t)value;
-        hex += used;
+    unsigned n = 0;
+    while (*hex) {
+        octets[n++] = (uint8_t)(digit(hex[0]) << 4 | digit(hex[1]));
+        hex += hex[2] ? 3 : 2;
     }
     return n;
 }
 
-static const char *as_hex(const uint8_t *octets, unsigned n)
+/* ---- asking: request, the answer that is wanted, and what the test fails with --------------------------- */
+
+uint8_t body[MBC_FRAME_MAX], got[MBC_FRAME_MAX];
+static uint8_t frame[MBC_FRAME_MAX], want[MBC_FRAME_MAX];
+static char text[4 * 64];
+
+static char *add(char *to, const char *words)
 {
-    static char text[2][3 * MBC_FRAME_MAX + 1];
-    static unsigned turn;
-    char *to = text[turn ^= 1];
+    while (*words && to < text + sizeof text - 1)
+        *to++ = *words++;
     *to = 0;
-    for (unsigned i = 0; i < n; i++)
-        sprintf(to + 3 * i, "%02X ", octets[i]);
     return to;
 }
 
-static void expect_frame(const char *request, const uint8_t *want, unsigned want_n, const uint8_t *got,
-                         unsigned n)
+static char *add_octets(char *to, const uint8_t *octets, unsigned n)
 {
-    char text[4 * MBC_FRAME_MAX];
-    if (want_n == n && (n == 0 || memcmp(want, got, n) == 0))
+    static const char digits[] = "0123456789ABCDEF";
+    char hex[4] = "00 ";
+    if (n == 0)
+        return add(to, "silence");
+    for (unsigned i = 0; i < n && i < 24; i++) {
+        hex[0] = digits[octets[i] >> 4];
+        hex[1] = digits[octets[i] & 15];
+        to = add(to, hex);
+    }
+    return n > 24 ? add(to, "...") : to;
+}
+
+static void expect_frame(const char *request, unsigned want_n, const uint8_t *heard, unsigned n)
+{
+    char *to;
+    if (want_n == n && (n == 0 || memcmp(want, heard, n) == 0))
         return;
-    snprintf(text, sizeof text, "%s: %.600s, expected %.600s", request, n ? as_hex(got, n) : "silence",
-             want_n ? as_hex(want, want_n) : "silence");
+    to = add(add(text, request), ": ");
+    to = add(add_octets(to, heard, n), ", expected ");
+    add_octets(to, want, want_n);
     TEST_FAIL_MESSAGE(text);
+}
+
+static void wait_for_body(const char *shown, unsigned want_n)
+{
+    unsigned n;
+    client.time_out = want_n ? 1000 : 60;
+    n = mbc_wait(&client, got);
+    if (client.heard_n && n == 0)
+        expect_frame(shown, want_n, client.heard, client.heard_n);
+    expect_frame(shown, want_n, got, n);
+    mbc_idle(40);
 }
 
 void ask(const char *request, const char *answer)
 {
-    uint8_t body[MBC_FRAME_MAX], want[MBC_FRAME_MAX], got[MBC_FRAME_MAX];
-    const unsigned n = hex_octets(request, body), want_n = answer ? hex_octets(answer, want) : 0;
-    client.time_out = answer ? HV_S : 60 * HV_MS;
+    const unsigned n = hex_octets(request, body);
     mbc_send(&client, body, n);
-    const unsigned got_n = mbc_wait(&client, got);
-    if (client.heard_n && !got_n)
-        expect_frame(request, want, want_n, client.heard, client.heard_n);
-    expect_frame(request, want, want_n, got, got_n);
-    mbc_idle(40);
+    wait_for_body(request, answer ? hex_octets(answer, want) : 0);
 }
 
-static void ask_frame(const char *shown, const uint8_t *frame, unsigned n, const uint8_t *want,
-                      unsigned want_n)
+void ask_body(unsigned n, const char *answer)
 {
-    uint8_t body[MBC_FRAME_MAX];
-    client.time_out = want_n ? HV_S : 60 * HV_MS;
-    mbc_put(&client, frame, n);
-    mbc_wait(&client, body);
-    expect_frame(shown, want, want_n, client.heard, client.heard_n);
+    mbc_send(&client, body, n);
+    wait_for_body("body", answer ? hex_octets(answer, want) : 0);
+}
+
+static void ask_frame(const char *shown, const uint8_t *octets, unsigned n, unsigned want_n)
+{
+    client.time_out = want_n ? 1000 : 60;
+    mbc_put(&client, octets, n);
+    mbc_wait(&client, got);
+    expect_frame(shown, want_n, client.heard, client.heard_n);
     mbc_idle(40);
 }
 
 void ask_raw(const char *request_hex, const char *answer_hex)
 {
-    uint8_t frame[MBC_FRAME_MAX], want[MBC_FRAME_MAX];
     const unsigned n = hex_octets(request_hex, frame);
-    ask_frame(request_hex, frame, n, want, answer_hex ? hex_octets(answer_hex, want) : 0);
+    ask_frame(request_hex, frame, n, answer_hex ? hex_octets(answer_hex, want) : 0);
 }
 
 void ask_text(const char *request, const char *answer)
 {
-    ask_frame(request, (const uint8_t *)request, (unsigned)strlen(request), (const uint8_t *)answer,
-              answer ? (unsigned)strlen(answer) : 0);
+    const unsigned n = answer ? (unsigned)strlen(answer) : 0;
+    if (n)
+        memcpy(want, answer, n);
+    ask_frame(request, (const uint8_t *)request, (unsigned)strlen(request), n);
 }
 
 uint8_t fixture_mode;

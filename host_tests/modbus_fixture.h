@@ -1,7 +1,10 @@
-/* A Modbus server with known contents on the virtual line, and a client to ask it in hexadecimal. */
+/* A Modbus server with known contents, and a client on its line to ask it in hexadecimal. Portable like the stack itself:
+ * the same tests run on the virtual line, and with modbus_client_fake.c on the targets' simulators. So no large locals here
+ * and in the tests: an 8051's stack has some 100 octets. */
 #ifndef MODBUS_FIXTURE_H
 #define MODBUS_FIXTURE_H
 
+#include "hal/hal.h"
 #include "modbus/mb.h"
 #include "sim/modbus_client.h"
 
@@ -25,7 +28,7 @@ struct fixture {
     bool busy;             /* functions 11, 12                                 */
     unsigned restarts;
     unsigned locks, unlocks;
-    hv_time spend; /* executing a write takes this long                */
+    void (*slow)(void);    /* called while a write is executed                 */
 };
 extern struct fixture fx;
 
@@ -37,6 +40,9 @@ extern uint8_t fixture_mode;
 void fixture_both(void (*test)(void), const char *rtu, const char *ascii, int line);
 #define BOTH(test) fixture_both(test, #test "_rtu", #test "_ascii", __LINE__)
 
+/* For bodies that are worked out, and for their answers. */
+extern uint8_t body[MBC_FRAME_MAX], got[MBC_FRAME_MAX];
+
 /* Send the body (address and PDU, "11 03 00 6B ..."), wait, and compare with the expected body; NULL:
  * silence. */
 void ask(const char *request, const char *answer);
@@ -44,6 +50,9 @@ void ask(const char *request, const char *answer);
 /* The same, given as whole RTU frames or ASCII text. */
 void ask_raw(const char *request_hex, const char *answer_hex);
 void ask_text(const char *request, const char *answer);
+
+/* The same, for the body in body[0..n-1]. */
+void ask_body(unsigned n, const char *answer);
 
 /* "01 A2" to octets. -> how many */
 unsigned hex_octets(const char *hex, uint8_t *octets);

@@ -1,4 +1,4 @@
-# The module tests of the DP stack on the simulated 8051: the same sources and assertions as on the host.
+# The module tests on the simulated 8051: the same sources and assertions as on the host.
 #
 # Unity in the large model wants more internal RAM than there is, so these images keep locals on the stack (--stack-auto)
 # and have one register bank: the code generation differs from the product's, which s51_dp.py and s51_contract.py run.
@@ -8,29 +8,31 @@ S51_UNIT_CC := sdcc -mmcs51 --std-c11 --model-large --stack-auto --disable-warni
     -Ifirmware/hal/mcs51 -Ihost_tests -Iboards/common
 S51_UNIT_HEADERS := $(HEADERS) $(wildcard host_tests/*.h host_tests/config/*.h host_tests/s51/*.h)
 
-# $(call s51_unit_set,SET,CONFIG): objects of one device
+# $(call s51_unit_set,SET,OPTIONS): objects of one device
 define s51_unit_set
 build/s51_units/$1/host_tests/test_%.rel: host_tests/test_%.c $(S51_UNIT_HEADERS)
 	@mkdir -p $$(@D)
-	$$(call say,SDCC,$$@)$(S51_UNIT_CC) -Dmain=test_main -DFIELDLING_CONFIG='"$2"' -c $$< -o $$@
+	$$(call say,SDCC,$$@)$(S51_UNIT_CC) -Dmain=test_main $2 -c $$< -o $$@
 build/s51_units/$1/%.rel: %.c $(S51_UNIT_HEADERS)
 	@mkdir -p $$(@D)
-	$$(call say,SDCC,$$@)$(S51_UNIT_CC) -DFIELDLING_CONFIG='"$2"' -c $$< -o $$@
+	$$(call say,SDCC,$$@)$(S51_UNIT_CC) $2 -c $$< -o $$@
+s51_unit_set_$1 := 1
 endef
-$(foreach c,$(sort $(foreach t,$(DP_UNIT_TESTS),$($t_CONFIG))),\
-    $(eval $(call s51_unit_set,$(basename $(notdir $c)),$c)))
 
 # $(call s51_unit,TEST,SET)
 define s51_unit
-build/s51_units/$1.lib: $(patsubst %.c,build/s51_units/$2/%.rel,$($1_DEFAULTS))
+$(if $(s51_unit_set_$2),,$(eval $(call s51_unit_set,$2,$($1_PORTABLE_OPTIONS))))
+build/s51_units/$1.lib: $(patsubst %.c,build/s51_units/$2/%.rel,$($1_PORTABLE_DEFAULTS))
 	@rm -f $$@ && sdar -rc $$@ $$^
 build/s51_units/$1.ihx: $(patsubst %.c,build/s51_units/$2/%.rel,build/unity/unity.c host_tests/s51/unit_main.c \
-    host_tests/$1.c $($1_SRC)) $(if $($1_DEFAULTS),build/s51_units/$1.lib)
+    $(or $($1_MAIN),host_tests/$1.c) $($1_PORTABLE_SRC)) $(if $($1_PORTABLE_DEFAULTS),build/s51_units/$1.lib)
 	$$(call say,LD51,$$@)sdcc -mmcs51 --model-large --stack-auto $$(filter %.rel,$$^) $$(filter %.lib,$$^) -o $$@
 build/s51_units/$1.map: build/s51_units/$1.ihx ;
 BOARD_IMAGES += build/s51_units/$1.map
 endef
-$(foreach t,$(DP_UNIT_TESTS),$(eval $(call s51_unit,$t,$(basename $(notdir $($t_CONFIG))))))
+# Not here: the inverter, whose 340 s of a drive take minutes to simulate, and cells in the flash of 32-bit parts, likewise.
+S51_PORTABLE := $(filter-out test_modbus_inverter test_nv_log,$(PORTABLE_TESTS))
+$(foreach t,$(S51_PORTABLE),$(eval $(call s51_unit,$t,$($t_PORTABLE_SET))))
 
 SCRIPT_TESTS_ONCE += host_tests/s51_units.py
 host_tests/s51_units.py_TIMEOUT := 400

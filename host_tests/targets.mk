@@ -16,20 +16,16 @@ $(foreach b,$(QEMU_BOARDS),$(eval $(call image,$b,hal_contract,\
     $($b_PORT) host_tests/hal_contract.c host_tests/target/console.c build/unity/unity.c,\
     $(TARGET_UNITY) -Ihost_tests -Ihost_tests/contract/board $($b_CONTRACT))))
 
-# ---- non-volatile cells on a page that fails --------------------------------------------------------------------------
-
-UNIT_TESTS += test_nv_log
-test_nv_log_SRC = firmware/hal/nv_log.c
-
-# ---- the module tests of DP, with the fake port of their own -----------------------------------------------------------
+# ---- the module tests, with the fake port of their own ------------------------------------------------------------------
 
 define qemu_unit_test # BOARD,TEST
-$(call image,$1,$2,$($1_START) host_tests/target/$1.c build/unity/unity.c host_tests/$2.c $($2_SRC),\
-    $(TARGET_UNITY) -I. -Ihost_tests -DFIELDLING_CONFIG='"$($2_CONFIG)"',$($2_DEFAULTS),$(notdir $(basename $($2_CONFIG))))
+$(call image,$1,$2,$($1_START) host_tests/target/$1.c build/unity/unity.c \
+    $(or $($2_MAIN),host_tests/$2.c) $($2_PORTABLE_SRC),\
+    $(TARGET_UNITY) -I. -Ihost_tests $($2_PORTABLE_OPTIONS),$($2_PORTABLE_DEFAULTS),$($2_PORTABLE_SET))
 endef
-$(foreach b,$(QEMU_BOARDS),$(foreach t,$(DP_UNIT_TESTS),$(eval $(call qemu_unit_test,$b,$t))))
+$(foreach b,$(QEMU_BOARDS),$(foreach t,$(PORTABLE_TESTS),$(eval $(call qemu_unit_test,$b,$t))))
 
-$(foreach b,$(QEMU_BOARDS),$(eval $b_TESTS := $(patsubst %,build/$b/%.$(call qemu_suffix,$b),$(DP_UNIT_TESTS) hal_contract)))
+$(foreach b,$(QEMU_BOARDS),$(eval $b_TESTS := $(patsubst %,build/$b/%.$(call qemu_suffix,$b),$(PORTABLE_TESTS) hal_contract)))
 BOARD_IMAGES += $(foreach b,$(QEMU_BOARDS),$($b_TESTS))
 
 # Which tests an image exists for.

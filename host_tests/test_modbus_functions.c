@@ -14,6 +14,7 @@ void setUp(void)
 
 void tearDown(void)
 {
+    mbc_end();
     TEST_ASSERT_EQUAL_MESSAGE(fx.locks, fx.unlocks, "lock and unlock in pairs");
 }
 
@@ -61,9 +62,8 @@ static void test_reading_bits(void)
 
 static void read_2000(uint8_t code, uint8_t flip)
 {
-    const uint8_t body[] = {0x11, code, 0x10, 0x00, 0x07, 0xD0};
-    uint8_t got[MBC_FRAME_MAX];
-    mbc_send(&client, body, sizeof body);
+    const uint8_t request[] = {0x11, code, 0x10, 0x00, 0x07, 0xD0};
+    mbc_send(&client, request, sizeof request);
     TEST_ASSERT_EQUAL(253, mbc_wait(&client, got));
     TEST_ASSERT_EQUAL_HEX8(250, got[2]);
     for (unsigned i = 0; i < 250; i++)
@@ -100,9 +100,8 @@ static void test_reading_registers(void)
 
 static void test_reading_125_registers(void)
 {
-    static const uint8_t body[] = {0x11, 0x04, 0x10, 0x00, 0x00, 0x7D};
-    uint8_t got[MBC_FRAME_MAX];
-    mbc_send(&client, body, sizeof body);
+    static const uint8_t request[] = {0x11, 0x04, 0x10, 0x00, 0x00, 0x7D};
+    mbc_send(&client, request, sizeof request);
     TEST_ASSERT_EQUAL(253, mbc_wait(&client, got));
     TEST_ASSERT_EQUAL_HEX8(250, got[2]);
     for (unsigned i = 0; i < 125; i++)
@@ -185,14 +184,12 @@ static void test_writing_coils(void)
 
 static void write_bits(uint16_t qty, uint8_t octets, const char *answer)
 {
-    uint8_t body[MBC_FRAME_MAX] = {0x11, 0x0F, 0x10, 0x00, (uint8_t)(qty >> 8), (uint8_t)qty, octets},
-            want[8];
-    uint8_t got[MBC_FRAME_MAX];
+    hex_octets("11 0F 10 00", body);
+    body[4] = (uint8_t)(qty >> 8);
+    body[5] = (uint8_t)qty;
+    body[6] = octets;
     memset(body + 7, 0xA5, octets);
-    mbc_send(&client, body, 7u + octets);
-    TEST_ASSERT_EQUAL(hex_octets(answer, want), mbc_wait(&client, got));
-    TEST_ASSERT_EQUAL_HEX8_ARRAY(want, got, hex_octets(answer, want));
-    mbc_idle(40);
+    ask_body(7u + octets, answer);
 }
 
 static void test_writing_1968_bits_is_allowed_1969_is_not(void)
@@ -222,24 +219,19 @@ static void test_writing_registers(void)
 
 static void write_registers(uint8_t qty, const char *answer)
 {
-    uint8_t body[MBC_FRAME_MAX] = {0x11, 0x10, 0xFF, 0x83, 0x00, qty, (uint8_t)(2 * qty)}, want[8];
-    uint8_t got[MBC_FRAME_MAX];
+    hex_octets("11 10 FF 83 00", body);
+    body[5] = qty;
+    body[6] = (uint8_t)(2 * qty);
     for (unsigned i = 0; i < 2u * qty; i++)
         body[7 + i] = (uint8_t)i;
-    mbc_send(&client, body, 7u + 2u * qty);
-    TEST_ASSERT_EQUAL(hex_octets(answer, want), mbc_wait(&client, got));
-    TEST_ASSERT_EQUAL_HEX8_ARRAY(want, got, hex_octets(answer, want));
-    mbc_idle(40);
+    ask_body(7u + 2u * qty, answer);
 }
 
 /* 200 registers are 400 octets, which an octet would call 144. */
 static void test_a_count_that_would_overflow_its_octet(void)
 {
-    uint8_t body[7 + 144] = {0x11, 0x10, 0xFF, 0x83, 0x00, 200, 144}, got[MBC_FRAME_MAX];
-    mbc_send(&client, body, sizeof body);
-    TEST_ASSERT_EQUAL(3, mbc_wait(&client, got));
-    TEST_ASSERT_EQUAL_HEX8(0x90, got[1]);
-    TEST_ASSERT_EQUAL_HEX8(0x03, got[2]);
+    memset(body + hex_octets("11 10 FF 83 00 C8 90", body), 0, 144);
+    ask_body(7 + 144, "11 90 03");
 }
 
 static void test_writing_123_registers(void)
@@ -328,8 +320,7 @@ static void test_reading_files(void)
 
 static void test_reading_as_much_of_files_as_an_answer_holds(void)
 {
-    uint8_t got[MBC_FRAME_MAX], body[] = {0x11, 0x14, 0x07, 0x06, 0, 9, 0, 0, 0, 124};
-    mbc_send(&client, body, sizeof body); /* 2 + 2 + 248 = 252 octets of 253 */
+    mbc_send(&client, body, hex_octets("11 14 07 06 00 09 00 00 00 7C", body)); /* 2 + 2 + 248 = 252 octets of 253 */
     TEST_ASSERT_EQUAL(253, mbc_wait(&client, got));
     TEST_ASSERT_EQUAL_HEX8(250, got[2]);
     TEST_ASSERT_EQUAL_HEX8(249, got[3]);
@@ -343,17 +334,18 @@ static void test_reading_as_much_of_files_as_an_answer_holds(void)
 /* Many short groups behind a long one: the answer overtakes its request, which must not be overwritten. */
 static void test_reading_many_groups(void)
 {
-    uint8_t got[MBC_FRAME_MAX], body[3 + 35 * 7] = {0x11, 0x14, 35 * 7};
-    for (unsigned i = 0; i < 35; i++) {
-        const uint8_t group[] = {6, 0, 9, 0, (uint8_t)(i + 1), 0, i == 0 ? 50 : 1};
-        memcpy(body + 3 + 7 * i, group, 7);
+    uint8_t *group = body + hex_octets("11 14 F5", body); /* 35 of 7 octets */
+    for (unsigned i = 0; i < 35; i++, group += 7) {
+        hex_octets("06 00 09 00 00 00 01", group);
+        group[4] = (uint8_t)(i + 1);
     }
-    mbc_send(&client, body, sizeof body);
+    body[3 + 6] = 50;
+    mbc_send(&client, body, 3 + 35 * 7);
     TEST_ASSERT_EQUAL(3 + 102 + 34 * 4, mbc_wait(&client, got));
     TEST_ASSERT_EQUAL_HEX8(101, got[3]);
     for (unsigned i = 1; i < 35; i++) {
-        const uint8_t group[] = {3, 6, 0, (uint8_t)(i + 1)};
-        TEST_ASSERT_EQUAL_HEX8_ARRAY(group, got + 105 + 4 * (i - 1), 4);
+        const uint8_t record[] = {3, 6, 0, (uint8_t)(i + 1)};
+        TEST_ASSERT_EQUAL_HEX8_ARRAY(record, got + 105 + 4 * (i - 1), 4);
     }
 }
 
@@ -390,12 +382,12 @@ static void test_writing_files(void)
 
 static void test_writing_a_file_with_the_longest_request(void)
 {
-    uint8_t body[3 + 0xFB] = {0x11, 0x15, 0xFB, 6, 0, 9, 0, 4, 0, 122}, got[MBC_FRAME_MAX];
+    hex_octets("11 15 FB 06 00 09 00 04 00 7A", body);
     for (unsigned i = 0; i < 244; i++)
         body[10 + i] = (uint8_t)(255 - i);
-    mbc_send(&client, body, sizeof body); /* text and table allow FBH, the figure F5H */
-    TEST_ASSERT_EQUAL(sizeof body, mbc_wait(&client, got));
-    TEST_ASSERT_EQUAL_HEX8_ARRAY(body, got, sizeof body);
+    mbc_send(&client, body, 3 + 0xFB); /* text and table allow FBH, the figure F5H */
+    TEST_ASSERT_EQUAL(3 + 0xFB, mbc_wait(&client, got));
+    TEST_ASSERT_EQUAL_HEX8_ARRAY(body, got, 3 + 0xFB);
     TEST_ASSERT_EQUAL_HEX16(0xFFFE, file_9[4]);
     TEST_ASSERT_EQUAL_HEX16(0x0D0C, file_9[125]);
 }
@@ -432,10 +424,10 @@ static void test_read_write_registers(void)
 
 static void test_read_write_at_its_limits(void)
 {
-    uint8_t body[11 + 242] = {0x11, 0x17, 0xFF, 0x83, 0, 125, 0xFF, 0x83, 0, 121, 242}, got[MBC_FRAME_MAX];
+    hex_octets("11 17 FF 83 00 7D FF 83 00 79 F2", body);
     for (unsigned i = 0; i < 242; i++)
         body[11 + i] = (uint8_t)(i + 1);
-    mbc_send(&client, body, sizeof body);
+    mbc_send(&client, body, 11 + 242);
     TEST_ASSERT_EQUAL(253, mbc_wait(&client, got));
     TEST_ASSERT_EQUAL_HEX8(250, got[2]);
     TEST_ASSERT_EQUAL_HEX8_ARRAY(body + 11, got + 3, 242);
@@ -457,11 +449,10 @@ static void test_fifo(void)
 
 static void test_fifo_of_31(void)
 {
-    static const uint8_t body[] = {0x11, 0x18, 0x04, 0xDE};
-    uint8_t got[MBC_FRAME_MAX];
+    static const uint8_t request[] = {0x11, 0x18, 0x04, 0xDE};
     for (uint16_t i = 0; i < 32; i++)
         fifo_4de[i] = i ? i : 31;
-    mbc_send(&client, body, sizeof body);
+    mbc_send(&client, request, sizeof request);
     TEST_ASSERT_EQUAL(2 + 2 + 2 + 62, mbc_wait(&client, got));
     TEST_ASSERT_EQUAL_HEX8(0x40, got[3]);
     TEST_ASSERT_EQUAL_HEX8(31, got[67]);
@@ -589,23 +580,18 @@ static void test_a_refused_broadcast_is_counted_and_silent(void)
 
 /* ---- 32-bit values ------------------------------------------------------------------------------------- */
 
-static void count_up(void *arg, uint32_t value)
+static void count_up(void)
 {
-    (void)arg;
-    if (value == 0)
-        return;
-    holding_0[20] = holding_0[21] = (uint16_t)value; /* an interrupt of the application: both halves alike */
-    hv_at(hv_now() + 7 * HV_US, count_up, NULL, value - 1);
+    holding_0[20] = ++holding_0[21]; /* an interrupt of the application: both halves alike */
 }
 
 static void test_memory_is_copied_between_lock_and_unlock(void)
 {
-    static const uint8_t body[] = {0x11, 0x03, 0x00, 0x14, 0x00, 0x02};
-    uint8_t got[MBC_FRAME_MAX];
-    hv_at(hv_now(), count_up, NULL, 60000);
+    static const uint8_t request[] = {0x11, 0x03, 0x00, 0x14, 0x00, 0x02};
+    mbc_interrupt(count_up);
     for (unsigned i = 0; i < 100; i++) {
         const unsigned before = fx.locks;
-        mbc_send(&client, body, sizeof body);
+        mbc_send(&client, request, sizeof request);
         TEST_ASSERT_EQUAL(7, mbc_wait(&client, got));
         TEST_ASSERT_EQUAL_HEX8_ARRAY(got + 3, got + 5, 2);
         TEST_ASSERT_EQUAL(before + 1, fx.locks);

@@ -29,15 +29,16 @@ void setUp(void)
 
 void tearDown(void)
 {
+    mbc_end();
 }
 
 /* -> octets of the answer's PDU */
 static unsigned identify(uint8_t code, uint8_t object, uint8_t *pdu)
 {
-    const uint8_t body[] = {0x11, 0x2B, 0x0E, code, object};
-    uint8_t got[MBC_FRAME_MAX];
-    mbc_send(&client, body, sizeof body);
-    const unsigned n = mbc_wait(&client, got);
+    const uint8_t request[] = {0x11, 0x2B, 0x0E, code, object};
+    unsigned n;
+    mbc_send(&client, request, sizeof request);
+    n = mbc_wait(&client, got);
     TEST_ASSERT_GREATER_THAN(1, n);
     memcpy(pdu, got + 1, n - 1);
     mbc_idle(40);
@@ -56,7 +57,7 @@ static void test_each_level_has_its_objects(void)
 
 static void test_a_stream_goes_on_where_more_follows(void)
 {
-    uint8_t pdu[MBC_FRAME_MAX];
+    static uint8_t pdu[MBC_FRAME_MAX];
     unsigned n = identify(3, 0, pdu);
     TEST_ASSERT_EQUAL_HEX8(0x83, pdu[3]);
     TEST_ASSERT_EQUAL_HEX8(0xFF, pdu[4]); /* more follows */

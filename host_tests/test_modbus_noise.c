@@ -41,8 +41,8 @@ static uint32_t contents(void)
     return hash;
 }
 
-/* Random, but often close to a request: a real function code, plausible addresses and counts. */
-static unsigned random_body(uint8_t *body)
+/* -> body. Random, but often close to a request: a real function code, plausible addresses and counts. */
+static unsigned random_body(void)
 {
     static const uint8_t codes[] = {1,  2,  3,  4,  5,  6,  7,  8,  11, 12, 15,
                                     16, 17, 20, 21, 22, 23, 24, 43, 65, 110};
@@ -72,8 +72,7 @@ static bool is_write(uint8_t code)
 
 static void one_frame(void)
 {
-    uint8_t body[MBC_FRAME_MAX], got[MBC_FRAME_MAX];
-    const unsigned n = random_body(body);
+    const unsigned n = random_body();
     const bool bad = sim_below(&seed, 4) == 0;
     const uint32_t before = contents();
     const unsigned writes = fx.writes;
@@ -105,7 +104,6 @@ static void one_frame(void)
 static void restart_if_listening(unsigned i)
 {
     static const uint8_t restart[] = {0x11, 8, 0, 1, 0, 0};
-    uint8_t got[MBC_FRAME_MAX];
     if (!mb_diag.listen_only || i % 8)
         return;
     client.wrong.check_xor = 0;
@@ -117,7 +115,7 @@ static void restart_if_listening(unsigned i)
 static void random_frames(uint8_t mode, unsigned n)
 {
     fixture_begin(0x11, mode);
-    client.time_out = (mode == MB_ASCII ? 20 : 6) * HV_MS;
+    client.time_out = mode == MB_ASCII ? 20 : 6;
     for (unsigned i = 0; i < n; i++) {
         restart_if_listening(i);
         one_frame();

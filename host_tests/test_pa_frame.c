@@ -1,10 +1,9 @@
 /* PROFIBUS-PA frames. CRCs: worked bit by bit from the polynomial (facts, section 6; check value of the CRC
  * catalogue's CRC-16/PROFIBUS), octets written out here. */
 #include "fdl/pa_frame.h"
-#include "sim/random.h"
+#include "pa_vectors.h"
 #include "unity.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 static uint8_t frame[PA_FRAME_MAX + 1], body[PA_BODY_MAX];
@@ -36,32 +35,13 @@ static void the_crc_is_the_catalogues(void)
     TEST_ASSERT_EQUAL_HEX16(0x19EB, crc_of("\x68\x88\x82\x6D\x3C\x3E", 6) ^ 0xFFFF);
 }
 
-static const struct vector {
-    uint8_t sdl, len, body[12], n, frame[20];
-} vectors[] = {
-    {0x10, 3, {0x08, 0x02, 0x49}, 6, {0x10, 0x08, 0x02, 0x49, 0xDC, 0x05}},
-    {0x10, 3, {0x02, 0x08, 0x00}, 6, {0x10, 0x02, 0x08, 0x00, 0x56, 0x73}},
-    {0xDC, 2, {0x02, 0x02}, 5, {0xDC, 0x02, 0x02, 0x24, 0x46}},
-    {0xE5, 0, {0}, 3, {0xE5, 0x14, 0x26}},
-    {0x68,
-     5,
-     {0x88, 0x82, 0x6D, 0x3C, 0x3E},
-     11,
-     {0x68, 0x05, 0x05, 0x68, 0x88, 0x82, 0x6D, 0x3C, 0x3E, 0xE3, 0x47}},
-    {0xA2,
-     11,
-     {0x08, 0x02, 0x7D, 0x42, 0x24, 0x00, 0x01, 0x02, 0x03, 0x04, 0x05},
-     14,
-     {0xA2, 0x08, 0x02, 0x7D, 0x42, 0x24, 0x00, 0x01, 0x02, 0x03, 0x04, 0x05, 0xB6, 0xF7}},
-};
-#define VECTORS (sizeof vectors / sizeof vectors[0])
-
 static void each_format_is_encoded_octet_by_octet(void)
 {
     for (unsigned i = 0; i < VECTORS; i++) {
         const struct vector *v = &vectors[i];
         memset(frame, 0x55, sizeof frame);
-        TEST_ASSERT_EQUAL(v->n, pa_encode(v->sdl, v->body, v->len, frame));
+        memcpy(body, v->body, v->len);
+        TEST_ASSERT_EQUAL(v->n, pa_encode(v->sdl, body, v->len, frame));
         TEST_ASSERT_EQUAL_HEX8_ARRAY(v->frame, frame, v->n);
         TEST_ASSERT_EQUAL_HEX8(0x55, frame[v->n]);
     }
@@ -71,11 +51,12 @@ static void each_format_is_decoded(void)
 {
     for (unsigned i = 0; i < VECTORS; i++) {
         const struct vector *v = &vectors[i];
-        TEST_ASSERT_EQUAL(PA_GOOD, pa_decode(v->frame, v->n, &body_len));
+        memcpy(frame, v->frame, v->n);
+        TEST_ASSERT_EQUAL(PA_GOOD, pa_decode(frame, v->n, &body_len));
         TEST_ASSERT_EQUAL(v->len, body_len);
         if (v->len)
-            TEST_ASSERT_EQUAL_HEX8_ARRAY(v->body, v->frame + pa_body_at(v->sdl), v->len);
-        TEST_ASSERT_EQUAL_HEX16(0xE394, crc_of(v->frame, v->n));
+            TEST_ASSERT_EQUAL_HEX8_ARRAY(v->body, frame + pa_body_at(v->sdl), v->len);
+        TEST_ASSERT_EQUAL_HEX16(0xE394, crc_of(frame, v->n));
     }
 }
 
@@ -90,11 +71,11 @@ static void a_body_that_does_not_suit_its_format_is_not_encoded(void)
 
 static void every_length_of_sdl2_goes_there_and_back(void)
 {
-    uint64_t random = 7;
+    uint8_t n;
     for (unsigned len = 4; len <= 249; len++) {
         for (unsigned i = 0; i < len; i++)
-            body[i] = (uint8_t)sim_random(&random);
-        const uint8_t n = pa_encode(PA_SDL2, body, (uint8_t)len, frame);
+            body[i] = (uint8_t)(i * 37u + len);
+        n = pa_encode(PA_SDL2, body, (uint8_t)len, frame);
         TEST_ASSERT_EQUAL(len + 6, n);
         TEST_ASSERT_EQUAL(PA_GOOD, pa_decode(frame, n, &body_len));
         TEST_ASSERT_EQUAL(len, body_len);
@@ -129,85 +110,10 @@ static void broken_length_rules_are_rejected_though_the_crc_is_right(void)
     TEST_ASSERT_EQUAL(PA_BAD_LENGTH, pa_decode(frame, (uint16_t)with_crc(7), &body_len));
     memcpy(frame, "\x16\x08\x02\x49", 4);
     TEST_ASSERT_EQUAL(PA_BAD_SDL, pa_decode(frame, (uint16_t)with_crc(4), &body_len));
+    memcpy(frame, "\xE5\x14\x26", 3);
     for (uint16_t n = 0; n < 3; n++)
-        TEST_ASSERT_EQUAL(PA_BAD_LENGTH, pa_decode((const uint8_t *)"\xE5\x14\x26", n, &body_len));
+        TEST_ASSERT_EQUAL(PA_BAD_LENGTH, pa_decode(frame, n, &body_len));
     TEST_ASSERT_EQUAL_HEX8(0x55, body_len);
-}
-
-/* 259 - 249 = 10: judged in the width of the count, a frame of 265 octets would pass for one of 9. */
-static void a_frame_longer_than_255_octets_is_rejected(void)
-{
-    uint8_t *const longer = calloc(1, 270);
-    longer[0] = 0x10;
-    for (uint16_t n = 256; n < 270; n++)
-        TEST_ASSERT_EQUAL(PA_BAD_LENGTH, pa_decode(longer, n, &body_len));
-    free(longer);
-}
-
-static void flip(unsigned bit)
-{
-    frame[bit / 8] ^= (uint8_t)(0x80u >> bit % 8);
-}
-
-/* HD = 4: exhaustive for the short formats. */
-static void up_to_three_wrong_bits_in_a_short_frame_are_always_found(void)
-{
-    for (unsigned v = 0; v < VECTORS; v++) {
-        const unsigned bits = vectors[v].n * 8u;
-        memcpy(frame, vectors[v].frame, vectors[v].n);
-        for (unsigned i = 0; i < bits; i++) {
-            flip(i);
-            TEST_ASSERT_NOT_EQUAL(PA_GOOD, pa_decode(frame, vectors[v].n, &body_len));
-            for (unsigned j = i + 1; j < bits; j++) {
-                flip(j);
-                if (pa_decode(frame, vectors[v].n, &body_len) == PA_GOOD)
-                    TEST_FAIL_MESSAGE("two wrong bits passed");
-                for (unsigned k = j + 1; k < bits; k++) {
-                    flip(k);
-                    if (pa_decode(frame, vectors[v].n, &body_len) == PA_GOOD)
-                        TEST_FAIL_MESSAGE("three wrong bits passed");
-                    flip(k);
-                }
-                flip(j);
-            }
-            flip(i);
-        }
-    }
-}
-
-/* The CRC is linear: an error of bits i, j, k is found exactly when the three remainders do not cancel. So all
- * patterns of the longest frame can be asked about by remainders, without decoding each. */
-static void up_to_three_wrong_bits_in_the_longest_frame_are_always_found(void)
-{
-    enum { BITS = 255 * 8 };
-    static uint16_t remainder[BITS];
-    static uint8_t seen[65536];
-    uint16_t r = 1;
-    for (unsigned i = 0; i < BITS; i++) { /* of x^i */
-        remainder[i] = r;
-        TEST_ASSERT_FALSE_MESSAGE(seen[r], "two wrong bits cancel");
-        seen[r] = 1;
-        r = (uint16_t)((r << 1) ^ (r & 0x8000 ? 0x1DCF : 0));
-    }
-    unsigned passed = 0;
-    for (unsigned i = 0; i < BITS; i++)
-        for (unsigned j = i + 1; j < BITS; j++)
-            passed += seen[remainder[i] ^ remainder[j]];
-    TEST_ASSERT_EQUAL_MESSAGE(0, passed, "three wrong bits cancel");
-}
-
-static void random_octets_practically_never_pass(void)
-{
-    uint64_t random = 99;
-    const unsigned turns = getenv("TEST_FULL") ? 1000000 : 20000;
-    unsigned good = 0;
-    for (unsigned i = 0; i < turns; i++) {
-        const uint16_t n = (uint16_t)sim_below(&random, 40);
-        for (unsigned k = 0; k < n; k++)
-            frame[k] = (uint8_t)sim_random(&random);
-        good += pa_decode(frame, n, &body_len) == PA_GOOD;
-    }
-    TEST_ASSERT_LESS_THAN(3, good);
 }
 
 int main(void)
@@ -219,9 +125,5 @@ int main(void)
     RUN_TEST(a_body_that_does_not_suit_its_format_is_not_encoded);
     RUN_TEST(every_length_of_sdl2_goes_there_and_back);
     RUN_TEST(broken_length_rules_are_rejected_though_the_crc_is_right);
-    RUN_TEST(a_frame_longer_than_255_octets_is_rejected);
-    RUN_TEST(up_to_three_wrong_bits_in_a_short_frame_are_always_found);
-    RUN_TEST(up_to_three_wrong_bits_in_the_longest_frame_are_always_found);
-    RUN_TEST(random_octets_practically_never_pass);
     return UNITY_END();
 }
