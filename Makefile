@@ -35,7 +35,8 @@ PYTHON   := build/venv/bin/python
 .SUFFIXES:
 .SECONDARY:
 
-# ---- how a C file is compiled, by variant: posix = programs, test = unit tests, asan = both, with clang ----
+# ---- how a C file is compiled, by variant: posix = programs, test = unit tests, asan = both, with clang;
+# ---- clang = both, for its warnings only, at a quarter of the price of asan
 
 WARNINGS := -std=c99 -Wall -Wextra -Wconversion -Werror -D_POSIX_C_SOURCE=200809L -D_DEFAULT_SOURCE
 INCLUDES := -I. -Ifirmware -Ifirmware/hal/posix -Iboards/common
@@ -48,6 +49,8 @@ test_CFLAGS  := -O1 -g -Ibuild/unity
 asan_CC      := clang
 asan_CFLAGS  := -O1 -g -Ibuild/unity $(SANITIZE)
 asan_LDFLAGS := $(SANITIZE)
+clang_CC     := clang
+clang_CFLAGS := -O0 -Ibuild/unity
 
 # ---- the DP stack, for everybody's fragment ----------------------------------------------------------------
 #
@@ -105,8 +108,8 @@ test_sources = $(UNITY) $(or $($1_MAIN),host_tests/$1.c) $($1_SRC)
 # $(call build,VARIANT,NAME,SOURCES): the rules for one program, and for its set of objects if they are not there yet
 build = $(if $(rule_$1_$(call objset,$2)),,$(eval $(call compile_rule,$1,$(call objset,$2),$(call options,$2))))\
         $(eval $(call link_rule,$1,$2,$3))
-$(foreach p,$(PROGRAMS),$(foreach v,posix asan,$(call build,$v,$p,$($p_SRC))))
-$(foreach t,$(UNIT_TESTS),$(foreach v,test asan,$(call build,$v,$t,$(call test_sources,$t))))
+$(foreach p,$(PROGRAMS),$(foreach v,posix asan clang,$(call build,$v,$p,$($p_SRC))))
+$(foreach t,$(UNIT_TESTS),$(foreach v,test asan clang,$(call build,$v,$t,$(call test_sources,$t))))
 
 # ---- what a user asks for --------------------------------------------------------------------------------
 
@@ -120,8 +123,10 @@ POSIX_PROGRAMS := $(addprefix build/posix/,$(PROGRAMS))
 ASAN_PROGRAMS  := $(addprefix build/asan/,$(PROGRAMS))
 TEST_PROGRAMS  := $(addprefix build/test/,$(UNIT_TESTS))
 ASAN_TESTS     := $(addprefix build/asan/,$(UNIT_TESTS))
+CLANG_OBJECTS  := $(sort $(foreach p,$(PROGRAMS),$(call objects,clang,$p,$($p_SRC) $($p_DEFAULTS))) \
+                         $(foreach t,$(UNIT_TESTS),$(call objects,clang,$t,$(call test_sources,$t) $($t_DEFAULTS))))
 
-.PHONY: all setup run flash test check asan bench size clean help build-tests build-asan boards static \
+.PHONY: all setup run flash test check asan bench size clean help build-tests build-asan check-clang boards static \
         $(BENCHES) $(SIZES) $(STATIC)
 
 all: $(POSIX_PROGRAMS)
@@ -144,6 +149,8 @@ build-tests: $(POSIX_PROGRAMS) $(TEST_PROGRAMS)
 	@:
 build-asan: $(ASAN_PROGRAMS) $(ASAN_TESTS)
 	@:
+check-clang: $(CLANG_OBJECTS)
+	@:
 boards: $(BOARD_IMAGES)
 	@:
 static: $(STATIC)
@@ -156,7 +163,7 @@ test: setup
 
 check:
 	@test -d build/unity && test -x $(PYTHON) || sh host_tests/setup.sh
-	@$(MAKE) --no-print-directory $J build-tests build-asan static
+	@$(MAKE) --no-print-directory $J build-tests check-clang static
 	@$(RUN_PY) $(call timed,$(UNIT_TESTS),build/test/) $(call timed,$(QUICK_TESTS))
 
 asan:

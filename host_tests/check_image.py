@@ -9,7 +9,8 @@ usage: check_image.py [--root DIR] IMAGE.ihx ...     IMAGE/ holds the .asm files
      ends in _isr;
   3  what is reached from the vectors, over any number of calls, is interrupt code (check_contexts.py), and no routine
      of SDCC's library: no generic pointer, no multiplication or division but the core's own MUL AB and DIV AB;
-  4  what interrupts of different priority reach is disjoint: one breaks into the other, and locals are static;
+  4  interrupts of different priority reach disjoint functions and register banks: one breaks into the other, and locals
+     are static;
   5  where the lock leaves interrupts on, what the main loop reaches does not select the interrupt functions' register
      bank: they run on in it.
 """
@@ -83,11 +84,15 @@ def check_reached(program):
                 yield f"{path_to(function, reached)}: not interrupt code"
             elif not anywhere(function) and seen.setdefault(function, level) != level:
                 yield f"{path_to(function, reached)}: interrupts of two priorities run it"
+            for bank in banks(function):
+                if seen.setdefault(bank, level) != level:
+                    yield f"{path_to(function, reached)}: interrupts of two priorities use register bank {bank >> 3}"
 
 
 def banks(function):
-    return {int(n, 16) for op, operands in function.code if op == "mov"
-            for n in re.findall(r"^psw,#(0x[0-9a-f]+)$", operands.replace(" ", ""))}
+    """Register banks that a function selects, in order."""
+    return [int(n, 16) for op, operands in function.code if op == "mov"
+            for n in re.findall(r"^psw,#(0x[0-9a-f]+)$", operands.replace(" ", ""))]
 
 
 def check_banks(program):
@@ -96,11 +101,11 @@ def check_banks(program):
     if lock is None or any(op in ("clr", "jbc") and operands.startswith("_EA") for op, operands in lock.code):
         return
     reached = program.reached_from([program.resolve(None, "main")])
-    # an interrupt function's bank is the first it selects: in its prologue
+    # an interrupt function's own bank is the first it selects
     entries = [f for f in program.functions if f.code and f.code[-1][0] == "reti" and f not in reached]
-    taken = set().union(*map(banks, entries))
+    taken = {bank for entry in entries for bank in banks(entry)[:1]}
     for function in reached:
-        if banks(function) & taken:
+        if taken & set(banks(function)):
             yield f"{path_to(function, reached)}: selects the register bank of interrupts that the lock leaves on"
 
 
