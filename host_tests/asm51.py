@@ -1,8 +1,7 @@
 """What SDCC made of 8051 sources: its assembly, function by function, and the image the linker made of it.
 
-    program = Program(["a.asm", "b.asm"])         what was compiled
-    image = Image("build/87c51fb/x.ihx")          what was linked: octets, addresses, sizes
-    program = Program(files, image)               with the library's routines, decoded from the octets
+    program = Program(["a.asm", "b.asm"])       what was compiled
+    program = load("build/87c51fb/x.ihx")       what was linked, with the library's routines, decoded from the image
 
 A function's code is a list of (mnemonic, operands); assembly written by hand is code like any other. Where one function
 runs on into the next label, that counts as a jump there.
@@ -267,3 +266,12 @@ class Image:
             function.labels[f"{at:04X}$"] = index
             function.code.append(found[at][:2])
         return function
+
+
+def load(ihx):
+    """-> Program of a linked image; its .asm files are in the folder of its name."""
+    image = Image(ihx)
+    paths = [str(path) for path in sorted(image.folder.rglob("*.asm")) if image.has(path)]
+    if len(paths) < len(image.parts):
+        raise FileNotFoundError(f"{image.folder}: not all of {', '.join(image.parts)}")
+    return Program(paths, image)

@@ -18,19 +18,11 @@ import re
 import sys
 from pathlib import Path
 
-from asm51 import Image, Program
+from asm51 import load
 from check_contexts import ANYWHERE, LOCK, is_bare, is_interrupt
 from stack51 import INTERRUPTS, Unknown, by_priority, enabled, vector
 
 DEFINITION = re.compile(r"\b(\w+)\s*\([^;{}()]*\)\s*__interrupt\s*\(([^)]*)\)[^;{}]*\{")
-
-
-def load(ihx):
-    image = Image(ihx)
-    paths = [str(path) for path in sorted(image.folder.rglob("*.asm")) if image.has(path)]
-    if len(paths) < len(image.parts):
-        raise FileNotFoundError(f"{image.folder}: not all of {', '.join(image.parts)}")
-    return Program(paths, image)
 
 
 def defined_interrupts(root, ihx, program):

@@ -19,8 +19,7 @@ import time
 import tty
 
 import scripted
-from check_image import load
-from stack51 import Stack, measured
+from stack51 import measured_and_computed
 
 BIN = os.environ.get("FIELDLING_BIN", "build/posix")
 CLOCKS_PER_BIT = 12_000_000 / 7200
@@ -399,8 +398,7 @@ def test_the_master_station_controls_ao_on_the_chip():
 def test_no_stack_was_deeper_than_the_calls_allow():
     assert highest_sp, "no image has run"
     for name, sp in sorted(highest_sp.items()):
-        program = load(name)
-        deepest, worst = measured(program, sp), Stack(program).worst
+        deepest, worst = measured_and_computed(name, sp)
         print(f"  {name}: stack {deepest} octets, by the calls {worst}")
         assert 10 < deepest <= worst, (name, deepest, worst)
 

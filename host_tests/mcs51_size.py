@@ -17,7 +17,7 @@ import re
 import sys
 from pathlib import Path
 
-from check_image import load
+from asm51 import load
 from stack51 import Stack, Unknown
 
 COLUMNS = ("code", "XDATA", "IDATA", "bits", "stack")

@@ -8,7 +8,7 @@ A recursion, a call through a pointer to nowhere, or a change of the stack point
 """
 import re
 
-from asm51 import RETURNS
+from asm51 import RETURNS, load
 
 NEVER_RETURNS = {"hal_reset"}  # leaves by reti to an address it has pushed
 # Bits of IE and IP: Intel MCS-51 8-bit microcontroller hardware description; 6 is the PCA of the 87C51FB.
@@ -151,6 +151,8 @@ class Stack:
         self.worst = max(2, self.main + sum(self.levels.values()))
 
 
-def measured(program, highest_sp):
-    """Octets of the stack in use when the stack pointer was highest."""
-    return highest_sp + 1 - program.image.stack_start
+def measured_and_computed(ihx, highest_sp):
+    """Octets of an image's stack when the stack pointer was highest in a run, and those its calls allow. Were the first
+    more than the second, something would be missing here."""
+    program = load(ihx)
+    return highest_sp + 1 - program.image.stack_start, Stack(program).worst

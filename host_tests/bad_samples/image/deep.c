@@ -1,6 +1,6 @@
 /* expect: stack over budget
  * budget: 1000 100 60 8 9
- * Four calls and the interrupt: five return addresses. */
+ * By hand: four calls and the interrupt, five return addresses. */
 #include <8052.h>
 
 void serial_isr(void) __interrupt(4) __using(1);
