@@ -13,6 +13,8 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from stack51 import measured_and_computed
+
 HERE = Path(__file__).parent
 
 
@@ -40,7 +42,8 @@ def check_object(sample, folder):
 def check_linked(sample, folder):
     """bad_samples/image/: an image, with a main() that does nothing where the sample has none.
 
-    "doctor: OLD -> NEW" changes what the compiler made, "budget: FIGURES" is the image's row in a budget."""
+    "doctor: OLD -> NEW" changes what the compiler made, "budget: FIGURES" is the image's row in a budget, "measure: N" runs
+    N instructions: the stack is as deep then as its calls allow."""
     text, parts = sample.read_text(), folder / "x"
     parts.mkdir()
     (folder / "sample.c").write_text(text)
@@ -59,7 +62,18 @@ def check_linked(sample, folder):
     if budget:
         (folder / "budget.txt").write_text("x " + budget[1])
         checks.append(run(sys.executable, str(HERE / "mcs51_size.py"), "--budget", str(folder / "budget.txt"), ihx))
+    measure = re.search(r"measure: (\d+)", text)
+    if measure:
+        measured, computed = measured_and_computed(ihx, highest_sp(ihx, measure[1]))
+        checks.append((measured != computed, f"stack: {measured} octets measured, {computed} computed\n"))
     return checks
+
+
+def highest_sp(ihx, instructions):
+    command = ["s51", "-t", "52", "-b", "-P", ihx]
+    said = subprocess.run(command, input=f"step {instructions}\nstate\nkill\n", stdout=subprocess.PIPE,
+                          stderr=subprocess.DEVNULL, text=True, timeout=60).stdout
+    return int(re.search(r"Max value of stack pointer= (0x\w+)", said)[1], 16)
 
 
 def findings(sample, folder):
