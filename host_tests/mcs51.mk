@@ -1,9 +1,10 @@
 # 8051 images in the simulator s51, and their budgets.
 
-SCRIPT_TESTS_ONCE += host_tests/s51_dp.py host_tests/s51_masters.py host_tests/s51_contract.py
+SCRIPT_TESTS_ONCE += host_tests/s51_dp.py host_tests/s51_masters.py host_tests/s51_contract.py host_tests/s51_states.py
 host_tests/s51_contract.py_TIMEOUT := 300
 host_tests/s51_dp.py_TIMEOUT      := 300
 host_tests/s51_masters.py_TIMEOUT := 300
+host_tests/s51_states.py_TIMEOUT  := 300
 
 BENCHES += bench-s51
 bench-s51: build/87c51fb/fieldling-dp.ihx

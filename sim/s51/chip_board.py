@@ -1,0 +1,130 @@
+"""DP-TEST01's board around the chip: power, address switches, process inputs and outputs, time.
+
+    with Board(image, n=4) as board:      Timer 2's divisor says the rate
+        board.power(8)                    on, or off and on again; the RAM keeps its contents, it has a battery
+        board.ask("10 08 02 49 53 16")    -> the answer in hex, "" for silence
+
+Marks in a telegram: `02!` comes with wrong parity, `_40` is a pause of 40 bit times after the octet before it.
+Simulated time alone: the same run gives the same answers at the same cycles. An output register is a cell in external
+RAM to the simulator, and so is the input at the same address: what is written there is noted, and the input put back.
+
+The simulator's console sleeps for 0.1 s when there is nothing to do: what belongs together is said at once.
+"""
+import os
+import re
+
+import chip as s51
+
+OUTPUT = 84  # codes in the simulator's notes: 840000 + value at IO_ADDRESS, 850000 + value behind it
+IO_ADDRESS, NV_ADDRESS, NV_SIZE = 0x8000, 0x7FE0, 32  # boards/87c51fb/wiring.h
+LOOP = "dp_test01_poll"  # entered once a turn of the main loop
+SYN = "phy_syn_ind_isr"  # the line has been silent for T_SYN
+TURNS = 3                # of the main loop, and what a telegram has set going is done
+T_SYN = 33               # T_bit
+PATIENCE = 60            # seconds of the host's time for what is done at once
+
+
+class Board(s51.Chip):
+    def __init__(self, image, n, mhz=12, inputs="1E 00"):
+        super().__init__(image, mhz=mhz)
+        self.n = n
+        self.bit = n * 8 / 3                         # machine cycles
+        self.cycles_per_ms = mhz * 1000 / s51.CLOCKS
+        self.now = 0                                 # machine cycles since power-up
+        self.outputs = {}                            # 0, 1 -> the value written last
+        self.written = []                            # (cycle, 0 or 1, value)
+        self.watches = []
+        self.command("var guard\nvar since")
+        self.inputs(inputs)
+
+    # ---- what is said to the simulator ----
+
+    def do(self, *lines):
+        """All of it, then look at the clock."""
+        text = self.command("\n".join([*lines, "expr /d 860000", "expr /d sim_ticks"]), PATIENCE)
+        self.take_log(text)
+        self.now = int(re.findall(r"^860000\n(\d+)$", text, re.M)[-1]) // s51.CLOCKS
+
+    def until(self, label, condition="1"):
+        """Lines that run until label is entered: "3" for the third time, "1 if x==2" when x is 2."""
+        return self.until_event(f"0x{self.symbols[label]:x} {condition}")
+
+    def until_event(self, event):
+        self.breaks += 1
+        return f"break {event}", "run", f"delete {self.breaks}"
+
+    def take_log(self, text):
+        super().take_log(text)
+        for place, value, ticks in re.findall(r"^8([45])0(\d{3})\n(\d+)$", text, re.M):
+            self.outputs[int(place) - 4] = int(value)
+            self.written.append((int(ticks) / s51.CLOCKS, int(place) - 4, int(value)))
+
+    # ---- the board ----
+
+    def inputs(self, text):
+        """Process inputs from now on."""
+        lines = [*(f"delete {number}" for number in self.watches), "guard=0"]
+        self.watches = []
+        for i, value in enumerate(bytes.fromhex(text)):
+            put = f"set mem xram 0x{IO_ADDRESS + i:x} 0x{value:x}"
+            self.breaks += 1
+            self.watches.append(self.breaks)
+            lines += [put, f"break xram w 0x{IO_ADDRESS + i:x} 1 if guard==0",
+                      f"commands {self.breaks} guard=1;expr /d {(OUTPUT + i) * 10000}+xram[0x{IO_ADDRESS + i:x}];"
+                      f"expr /d sim_ticks;{put};guard=0;go"]
+        self.do(*lines)
+
+    def out(self):
+        return f"{self.outputs.get(0, 256):02X} {self.outputs.get(1, 256):02X}"
+
+    def new_battery(self):
+        """What the non-volatile cells held is lost."""
+        self.do(f"fill xram 0x{NV_ADDRESS:x} 0x{NV_ADDRESS + NV_SIZE - 1:x} 0x3c")
+
+    def power(self, switches):
+        """-> when the baud search has come to this line's rate and the line has been silent for T_SYN. A closed switch
+        pulls its pin of P1 to ground."""
+        self.log, self.written, self.outputs = [], [], {}
+        self.do("fill iram 0 0xff 0xa5", "reset", f"set mem sfr 0x90 0x{~switches & 0x7f | 0x80:x}",
+                *self.until(LOOP, f"1 if RCAP2L=={256 - self.n}"), *self.until_later(2 * T_SYN * self.bit))
+
+    # ---- time ----
+
+    def until_later(self, cycles, label=LOOP):
+        """Lines that run until label is entered so much later; LOOP: a turn of the main loop begins."""
+        return "since=sim_ticks", *self.until(label, f"1 if sim_ticks-since>={int(cycles * s51.CLOCKS)}")
+
+    def ms(self, n):
+        self.do(*self.until_later(n * self.cycles_per_ms))
+
+    # ---- the line ----
+
+    def ask(self, text):
+        """Some turns of the main loop have passed since the telegram before, and will have after this one's answer."""
+        self.log = []
+        part = []
+        for token in text.split():
+            if token[0] == "_":
+                self.pause(bytes(part), int(token[1:]))
+                part = []
+            else:
+                part.append(int(token[:2], 16))
+                if token.endswith("!"):
+                    self.spoil(len(part))
+        return self.ask_octets(bytes(part))
+
+    def ask_octets(self, octets):
+        os.write(self.input, octets)
+        self.do(*self.until_later(len(octets) * 11 * self.bit, SYN), *self.until(LOOP, TURNS))
+        try:
+            return os.read(self.output, 4096).hex(" ").upper()
+        except BlockingIOError:
+            return ""
+
+    def pause(self, octets, bits):
+        """The octets, and silence for so long after them: RI is written when one comes and when it is fetched."""
+        os.write(self.input, octets)
+        self.do(*self.until_event(f"bits w 0x{s51.RI_BIT:x} {2 * len(octets)}"))
+        end = [t for kind, value, t in self.log if kind == "RI" and value == 1][-1] + bits * self.bit
+        while end - self.now > self.bit:
+            self.do(f"step {int((end - self.now) / 2)}")  # an instruction takes two cycles or less, four at most
