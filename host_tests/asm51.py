@@ -78,8 +78,6 @@ class Source:
         self.functions = []
         self.exported = set()
         self.overlaid = []          # variables in the overlay area
-        self.vectors = None         # the lines of the vector table, in the file that has it
-        self.start_up = []          # code of the areas that run before main()
         self.tables = set()         # names in tables of constants
         self._immediate = set()     # names whose address code works with
         self._data = set()
@@ -95,9 +93,7 @@ class Source:
                 if name.endswith("$"):
                     if current:
                         current.labels[name] = len(current.code)
-                elif name == "__interrupt_vect":
-                    current, self.vectors = None, []
-                elif area in ("CSEG", "HOME") and name.startswith("_"):
+                elif area in ("CSEG", "HOME") and name.startswith("_") and name != "__interrupt_vect":
                     if current and current.code and not current.ends_at(-1):
                         current.code.append(("ljmp", name))  # runs on
                     current = Function(name[1:], self.path)
@@ -117,18 +113,10 @@ class Source:
                     current.code.append((".db", operands))
                 else:
                     self.tables |= {n[1:] for n in re.findall(r"\b_\w+", operands)}
-            elif op and not op.startswith(".") and not operands.startswith("="):
-                self._instruction(area, current, op, operands)
-
-    def _instruction(self, area, current, op, operands):
-        if current:
-            current.code.append((op, operands))
-            if op == "mov":
-                self._immediate |= {n[1:] for n in re.findall(r"#\(?(_\w+)", operands)}
-        elif area.startswith("GS"):
-            self.start_up.append((op, operands))
-        elif self.vectors is not None:
-            self.vectors.append((op, operands))
+            elif current and op and not op.startswith(".") and not operands.startswith("="):
+                current.code.append((op, operands))
+                if op == "mov":
+                    self._immediate |= {n[1:] for n in re.findall(r"#\(?(_\w+)", operands)}
 
     def addresses_taken(self):
         """Names of functions that tables or code have the address of; of other files' data, too, from tables."""

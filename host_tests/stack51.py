@@ -30,9 +30,10 @@ def _constants(program, register, bits):
     for function in program.functions:
         for op, operands in function.code:
             first, _, second = operands.replace(" ", "").partition(",")
-            if first in bits and op in ("setb", "mov", "cpl"):
-                found.add(bits[first])
-            elif first == register and op not in ("push", "anl"):
+            name = first.lstrip("_").upper()  # C's or the assembler's own
+            if name in bits and op in ("setb", "mov", "cpl"):
+                found.add(bits[name])
+            elif name == register and op not in ("push", "anl"):
                 value = re.match(r"#(0x[0-9a-fA-F]+|\d+)$", second)
                 if op not in ("mov", "orl") or not value:
                     raise Unknown(f"{function.name}: {op} {operands}: no constant")
@@ -42,13 +43,13 @@ def _constants(program, register, bits):
 
 def enabled(program):
     """Numbers of the interrupts the program enables somewhere."""
-    return _constants(program, "_IE", {"_" + enable: n for n, (enable, _) in INTERRUPTS.items()})
+    return _constants(program, "IE", {enable: n for n, (enable, _) in INTERRUPTS.items()})
 
 
 def by_priority(program):
     """-> {priority: [functions of the interrupts that are enabled]}"""
-    high = _constants(program, "_IP", {"_" + priority: n for n, (_, priority) in INTERRUPTS.items()})
-    if _constants(program, "_IPH", {}):
+    high = _constants(program, "IP", {priority: n for n, (_, priority) in INTERRUPTS.items()})
+    if _constants(program, "IPH", {}):
         raise Unknown("four priorities are not known here")
     found = {}
     for number in sorted(enabled(program)):
