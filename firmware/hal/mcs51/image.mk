@@ -5,6 +5,7 @@
 # after setting  BOARD_CONFIG, BOARD_CODE, BOARD_XRAM   configuration header, octets of program memory and external RAM
 #                BOARD/NAME_SRC, BOARD/NAME_DEFAULTS    C files; the one with main() first
 #                BOARD_CFLAGS, BOARD/NAME_CFLAGS        what else the compiler should know
+# and giving NAME a row in boards/BOARD/budget.txt. MCS51_IMAGES are all of them: host_tests/mcs51.mk checks each.
 
 # --nooverlay: SDCC would share the memory of locals between functions without asking which of them are interrupts.
 MCS51_CC = sdcc -mmcs51 --std-c11 --model-large --nooverlay --opt-code-size --Werror
