@@ -14,10 +14,6 @@ test_hdlc_bits_SRC = sim/hdlc_bits.c
 UNIT_TESTS += test_i8273
 test_i8273_SRC = sim/i8273.c sim/i8273_line.c sim/hdlc_bits.c
 
-UNIT_TESTS += test_hdlc_nrm
-test_hdlc_nrm_SRC      = $(HDLC_SRC) $(HDLC_BUS) sim/hdlc_pcap.c
-test_hdlc_nrm_DEFAULTS = $(HDLC_DEFAULTS)
-
 UNIT_TESTS += test_hdlc_8273
 test_hdlc_8273_SRC      = $(HDLC_SRC) $(HDLC_BUS)
 test_hdlc_8273_DEFAULTS = $(HDLC_DEFAULTS)
@@ -26,9 +22,24 @@ test_hdlc_8273_DEFAULTS = $(HDLC_DEFAULTS)
 REMOTE_MODULE = $(addprefix boards/common/remote_,module.c document.c log.c check.c) firmware/crc16.c
 REMOTE_TEST   = $(REMOTE_MODULE) $(HDLC_SRC) $(HDLC_BUS) host_tests/remote_board_fake.c
 
-UNIT_TESTS += test_remote_module
-test_remote_module_SRC      = $(REMOTE_TEST)
-test_remote_module_DEFAULTS = $(HDLC_DEFAULTS)
+# Tests of frames: over the modelled chip, and portable over a stand-in for the driver.
+HDLC_PEER      = host_tests/hdlc_peer.c host_tests/hdlc_peer_chip.c sim/hdlc_pcap.c $(HDLC_BUS)
+HDLC_PEER_FAKE = $(addprefix host_tests/,hdlc_peer.c hdlc_peer_fake.c fake_hal.c hdlc_no_uart.c) \
+                 firmware/hdlc/hdlc_nrm.c firmware/hdlc/hdlc_cmd.c
+define hdlc_test # TEST,SOURCES
+UNIT_TESTS += $1
+$1_SRC      = $2 $$(HDLC_SRC) $$(HDLC_PEER)
+$1_DEFAULTS = $$(HDLC_DEFAULTS)
+$(call portable_test,$1,hdlc,$2 $(HDLC_PEER_FAKE),,$(filter-out %_dma_default.c,$(HDLC_DEFAULTS)))
+$$(eval $$(call fake_test,$1))
+endef
+$(eval $(call hdlc_test,test_hdlc_nrm))
+$(eval $(call hdlc_test,test_remote_module,$(REMOTE_MODULE) host_tests/remote_board_fake.c))
+$(eval $(call hdlc_test,test_remote_wrap,$(REMOTE_MODULE) host_tests/remote_board_fake.c))
+
+UNIT_TESTS += test_hdlc_line
+test_hdlc_line_SRC      = $(REMOTE_TEST) host_tests/hdlc_peer.c host_tests/hdlc_peer_chip.c sim/hdlc_pcap.c
+test_hdlc_line_DEFAULTS = $(HDLC_DEFAULTS)
 
 # The primary on the line: every fault at every frame.
 UNIT_TESTS += test_hdlc_recovery

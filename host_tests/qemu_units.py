@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Unity tests as images of the boards that QEMU has: the module tests of DP, and the contract of the port.
+"""Unity tests as images of the boards that QEMU has: the module tests, and the contract of the port.
 
 Time in the machine is counted instructions (-icount), so a busy host does not make it late. Each image writes what Unity writes to its console and ends with its status. The line's peer of the contract test
 (host_tests/hal_contract.h) is here: what the line has heard goes back after a silence.

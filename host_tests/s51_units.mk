@@ -30,8 +30,9 @@ build/s51_units/$1.ihx: $(patsubst %.c,build/s51_units/$2/%.rel,build/unity/unit
 build/s51_units/$1.map: build/s51_units/$1.ihx ;
 BOARD_IMAGES += build/s51_units/$1.map
 endef
-# Not here: the inverter, whose 340 s of a drive take minutes to simulate, and cells in the flash of 32-bit parts, likewise.
-S51_PORTABLE := $(filter-out test_modbus_inverter test_nv_log,$(PORTABLE_TESTS))
+# Not here, for they take minutes to simulate: 340 s of an inverter's drive, 70000 samples, and cells in the flash of 32-bit
+# parts, page by page.
+S51_PORTABLE := $(filter-out test_modbus_inverter test_remote_wrap test_nv_log,$(PORTABLE_TESTS))
 $(foreach t,$(S51_PORTABLE),$(eval $(call s51_unit,$t,$($t_PORTABLE_SET))))
 
 SCRIPT_TESTS_ONCE += host_tests/s51_units.py

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The module tests of the DP stack, image by image, on the simulated 8051 (host_tests/s51_units.mk builds them)."""
+"""The module tests, image by image, on the simulated 8051 (host_tests/s51_units.mk builds them)."""
 import re
 import subprocess
 import sys
