@@ -1,31 +1,25 @@
 #!/usr/bin/env python3
 """What the images of the gcc boards take, beside boards/BOARD/budget.txt: a figure above its limit is a failure.
 
-Code and RAM are what the linker says (text + data, data + bss). Instructions are those that QEMU executed, one a block: of an
-interrupt of the line that stored one octet, and of one whose octet ended a header; the least of many, because the host decides
-in QEMU what else a handler finds to do. They are taken from FDL status requests to the image as delivered. Of a telegram they
-are all that ran, the main loop too, from the interrupt of its first octet to hal_send() of the answer.
+Code and RAM are what the linker says (text + data, data + bss). Instructions are counted by QEMU with -icount, which makes
+them the machine's clock, and octets are fed to it while it stands still (counted.py): the same image gives the same figures
+wherever and whenever it runs. They are those of an interrupt of the line that stored one octet, and of one whose octet ended a
+part of a header, while FDL status requests come to the image as delivered; the most of each. Of a telegram they are all that
+ran, the main loop's pass after each octet too, from the interrupt of its first octet to hal_send() of the answer.
 
 The stack is what lost the paint of the start-up code while a master and the console kept the station busy for some seconds. It
 is a high-water mark of that run, not a bound: that no interrupt came at the deepest place is luck, hence room in the limits.
 
 usage: budget.py [--table]
 """
-import bisect
 import functools
-import json
-import os
-import pty
-import re
-import select
-import socket
 import subprocess
 import sys
 import tempfile
 import time
-import tty
 
-from machine import Machine, image_path, qemu
+from counted import Counted, Monitor, output_of, tool
+from machine import Machine
 from raw_master import RawMaster
 from run_board import ADDRESS, DELIVERED, MASTER, RATE, set_address
 from station import expect, run_tests
@@ -35,7 +29,8 @@ IMAGES = {"com86": ("fieldling-dp", "fieldling-modbus"), "lm3s6965evb": ("fieldl
 REQUESTS = {  # FDL status of the station as delivered; EN 50170-2 part 4, 4.7
     "com86": "10 7E 02 49 C9 16", "lm3s6965evb": "10 03 02 49 4E 16"}
 HANDLER = {"com86": "irq3", "lm3s6965evb": "line_isr"}
-TIMES = 8
+TIMES = 4
+STARTED, BETWEEN = 10, 15  # times that the main loop goes to sleep first, and between two requests
 READ_3_REGISTERS = "01 03 00 00 00 03 05 CB"  # Modbus application protocol 6.3
 MODBUS_REQUESTS = [  # what a master asks in turn: coils, registers, one written, four written, diagnostics, a wrong function
     "01 01 00 00 00 01 FD CA", READ_3_REGISTERS, "01 06 00 00 04 D2 0B 57", "01 10 00 00 00 01 02 03 E8 A6 EE",
@@ -51,65 +46,30 @@ def limits(board):
         return {words[0]: int(words[1]) for words in lines if words}
 
 
-def tool(board, name):
-    return name if board == "com86" else f"arm-none-eabi-{name}"
-
-
 def size(board, image):
-    out = subprocess.run([tool(board, "size"), "-A", f"build/{board}/{image}.elf"], text=True, check=True,
-                         stdout=subprocess.PIPE).stdout
+    out = output_of(tool(board, "size"), "-A", f"build/{board}/{image}.elf")
     sections = {words[0]: int(words[1]) for words in map(str.split, out.splitlines()) if len(words) == 3 and words[0][0] == "."}
     return {"code": sections[".text"] + sections[".data"], "ram": sections[".data"] + sections[".bss"]}
 
 
-class Symbols:
-    def __init__(self, board, image):
-        out = subprocess.run([tool(board, "nm"), f"build/{board}/{image}.elf"], text=True, check=True,
-                             stdout=subprocess.PIPE).stdout
-        thumb = 0 if board == "com86" else 1
-        self.at = sorted((int(a, 16) & ~thumb, name) for a, kind, name in map(str.split, out.splitlines()) if kind in "tT")
-        self.starts = [a for a, _ in self.at]
-
-    def __call__(self, pc):
-        return self.at[bisect.bisect_right(self.starts, pc) - 1][1]
-
-
-def traced(board, image, pieces, folder):
-    """Let the image hear pieces, one in 1.5 ms (less than T_SYN at 9600 bit/s), and answer. -> (function, is its first) of each instruction"""
-    log = f"{folder}/{board}-{image}.log"
-    ours, theirs = pty.openpty()
-    tty.setraw(theirs)
-    command = qemu(board, image_path(board, image), console="null,id=console", line=f"serial,id=line,path={os.ttyname(theirs)}", events=log,
-                   more=["-singlestep", "-d", "exec,nochain"])
-    with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
-        try:
-            time.sleep(1.5)
-            for _ in range(TIMES):
-                for piece in pieces:
-                    os.write(ours, piece)
-                    time.sleep(0.0015)
-                if select.select([ours], [], [], 0.2)[0]:
-                    time.sleep(0.05)  # the rest of the answer, and silence
-                    os.read(ours, 256)
-        finally:
-            process.terminate()
-            process.wait()
-    os.close(ours)
-    os.close(theirs)
-    symbol = Symbols(board, image)
-    first = set(symbol.starts)
-    with open(log, encoding="ascii", errors="replace") as file:
-        for line in file:
-            found = re.search(r"Trace 0: \S+ \[[0-9a-f]+/([0-9a-f]+)/", line)
-            if found:
-                yield symbol(int(found.group(1), 16)), int(found.group(1), 16) in first
-    os.unlink(log)
+@functools.lru_cache(None)
+def listed(board, image, request):
+    """The image hears request once, to find its rate, then TIMES times. -> [(function, is this its first instruction) of each
+    instruction that ran then]"""
+    with Counted(board, image) as machine:
+        machine.sleep(STARTED)
+        for turn in range(1 + TIMES):
+            machine.listing(turn > 0)
+            machine.hear(bytes.fromhex(request))
+            machine.sleep(BETWEEN)
+        machine.listing(False)
+        return list(machine.trace())
 
 
-def interrupts(board, image, octets, folder):
+def interrupts(board, image, request):
     """-> for each interrupt of the line that woke the sleeping main loop: (instructions, functions entered)"""
     n, entered, before = 0, [], ""
-    for name, is_first in traced(board, image, [bytes([octet]) for octet in octets], folder):
+    for name, is_first in listed(board, image, request):
         if n == 0 and name == HANDLER[board] and is_first and before == "hal_idle":
             n, entered = 1, [name]
         elif n and name == "hal_idle":
@@ -122,10 +82,10 @@ def interrupts(board, image, octets, folder):
         before = name
 
 
-def telegrams(board, image, request, folder):
-    """-> for each answered request, sent in one piece: the instructions from its first octet to hal_send(), sleep excepted"""
+def telegrams(board, image, request):
+    """-> for each answered request: the instructions from its first octet to hal_send(), those of going to sleep excepted"""
     n, heard = 0, False
-    for name, is_first in traced(board, image, [request], folder):
+    for name, is_first in listed(board, image, request):
         if is_first and name == HANDLER[board] and not heard:
             n = 0
         n += name != "hal_idle"
@@ -137,47 +97,13 @@ def telegrams(board, image, request, folder):
 
 
 def telegram_instructions(board, image, request):
-    with tempfile.TemporaryDirectory() as folder:
-        seen = list(telegrams(board, image, bytes.fromhex(request), folder))
-    expect(f"{board} {image}: answers seen", len(seen) >= TIMES // 2, True)
-    return min(seen)
-
-
-class Monitor:
-    """The memory of a running machine, by QEMU's own monitor (QMP)."""
-
-    def __init__(self, path):
-        self.socket = socket.socket(socket.AF_UNIX)
-        self.socket.settimeout(10)
-        self.socket.connect(path)
-        self.file = self.socket.makefile("rw", encoding="utf-8")
-        self.file.readline()
-        self.ask("qmp_capabilities")
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        self.file.close()
-        self.socket.close()
-
-    def ask(self, command, **arguments):
-        self.file.write(json.dumps({"execute": command, "arguments": arguments}) + "\n")
-        self.file.flush()
-        while True:
-            answer = json.loads(self.file.readline())
-            if "event" not in answer:
-                expect(command, answer, {"return": {}})
-                return
-
-    def memory(self, start, end, file):
-        self.ask("pmemsave", val=start, size=end - start, filename=file)
-        with open(file, "rb") as saved:
-            return saved.read()
+    seen = list(telegrams(board, image, request))
+    expect(f"{board} {image}: answers seen", len(seen), TIMES)
+    return max(seen)
 
 
 def address_of(board, image, *names):
-    out = subprocess.run([tool(board, "nm"), f"build/{board}/{image}.elf"], text=True, check=True, stdout=subprocess.PIPE).stdout
+    out = output_of(tool(board, "nm"), f"build/{board}/{image}.elf")
     at = {name: int(a, 16) for a, _, name in map(str.split, out.splitlines())}
     return [at[name] for name in names]
 
@@ -224,14 +150,13 @@ def stack(board, image):
 @functools.lru_cache(None)
 def instructions(board):
     """-> {"octet_instructions": of an interrupt that only stores one, "chunk_instructions": of one that parses a header}"""
-    with tempfile.TemporaryDirectory() as folder:
-        seen = list(interrupts(board, "fieldling-dp", bytes.fromhex(REQUESTS[board]), folder))
+    seen = list(interrupts(board, "fieldling-dp", REQUESTS[board]))
     one = [(n, entered) for n, entered in seen if entered.count("line_octet_isr") == 1]
     store = [n for n, entered in one if "phy_chunk_ind_isr" not in entered and "hal_send" not in entered]
-    chunk = [n for n, entered in one if "phy_chunk_ind_isr" in entered]
-    expect(f"{board}: octets seen", len(store) >= TIMES and len(chunk) >= 1, True)
-    return {"octet_instructions": min(store), "chunk_instructions": min(chunk),
-            "end_instructions": max(chunk)}
+    chunk = [n for n, entered in one if "phy_chunk_ind_isr" in entered and "fdl_telegram_isr" not in entered]
+    end = [n for n, entered in one if "fdl_telegram_isr" in entered]
+    expect(f"{board}: octets seen", (len(store), len(chunk), len(end)), (3 * TIMES, 2 * TIMES, TIMES))
+    return {"octet_instructions": max(store), "chunk_instructions": max(chunk), "end_instructions": max(end)}
 
 
 def figures(board):
@@ -268,6 +193,12 @@ def test_lm3s6965evb_is_within_its_budget():
 
 def test_bluepill_is_within_its_budget():
     within_budget("bluepill")
+
+
+def test_the_same_image_gives_the_same_instructions_each_time():
+    for board, request in REQUESTS.items():
+        again = listed.__wrapped__(board, "fieldling-dp", request)
+        expect(f"{board}: each one of them", listed(board, "fieldling-dp", request) == again and len(again) > 1000, True)
 
 
 CYCLES_OF_ENTRY_AND_EXIT = 12 + 10  # ARM Cortex-M3 technical reference manual, 12.1

@@ -35,5 +35,10 @@ endef
 S51_PORTABLE := $(filter-out test_modbus_inverter test_remote_wrap test_nv_log,$(PORTABLE_TESTS))
 $(foreach t,$(S51_PORTABLE),$(eval $(call s51_unit,$t,$($t_PORTABLE_SET))))
 
+# Which tests an image exists for.
+build/s51_units/images: $(patsubst %,build/s51_units/%.map,$(S51_PORTABLE))
+	@printf '%s\n' $(patsubst %,build/s51_units/%.ihx,$(S51_PORTABLE)) >$@
+BOARD_IMAGES += build/s51_units/images
+
 SCRIPT_TESTS_ONCE += host_tests/s51_units.py
 host_tests/s51_units.py_TIMEOUT := 400

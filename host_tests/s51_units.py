@@ -7,7 +7,7 @@ import tempfile
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-IMAGES = Path("build/s51_units")
+IMAGES = Path("build/s51_units/images")
 SECONDS = 180  # of the host for one image; it needs a few
 PCON = "0x87"  # written once, at the end
 
@@ -27,7 +27,7 @@ def run(image):
 
 
 def main():
-    images = sorted(IMAGES.glob("test_*.ihx"))
+    images = [Path(line) for line in IMAGES.read_text(encoding="ascii").split()]
     tests = failures = ignored = 0
     with ThreadPoolExecutor(2) as pool:
         for image, said in zip(images, pool.map(run, images)):
