@@ -57,6 +57,15 @@ f2808_modbus_SRC      = $(filter-out boards/common/main_modbus.c boards/common/l
 f2808_modbus_DEFAULTS = $(MODBUS_DEFAULTS)
 f2808_modbus_CFLAGS   = $(F2808_CFLAGS) -DMB_CONFIG='"inverter_mb.h"'
 
+# The files of the part itself, which only a compiler for the C28x can translate: gcc reads them, in words of 32 bits.
+STATIC += check-f2808
+.PHONY: check-f2808
+check-f2808:
+	@gcc -m32 -std=c99 -ffreestanding -fsyntax-only -Wall -Wextra -Wconversion -Werror -include host_tests/c28x/ti.h \
+	    -Ifirmware -Ifirmware/hal/f2808 -Ifirmware/hal/f2808/part -Iboards/f2808 -Iboards/common -I. \
+	    $(wildcard firmware/hal/f2808/*.c firmware/hal/f2808/part/*.c boards/f2808/*.c) firmware/hal/line_uart.c
+	@echo "f2808: the part's own files read"
+
 # ---- make run BOARD=..., make flash BOARD=... --------------------------------------------------------------------------------
 
 .PHONY: flash-which-board

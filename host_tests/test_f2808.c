@@ -67,6 +67,25 @@ void tearDown(void)
 {
 }
 
+/* Spec B8, in the document's order. */
+static void registers_and_bits_are_the_documents(void)
+{
+    static const uint16_t table[][2] = {
+        {SCICCR, 0x7050},         {SCICTL1, 0x7051},      {SCIHBAUD, 0x7052},     {SCILBAUD, 0x7053},
+        {SCICTL2, 0x7054},        {SCIRXST, 0x7055},      {SCIRXBUF, 0x7057},     {SCITXBUF, 0x7059},
+        {SCIFFTX, 0x705A},        {SCIFFRX, 0x705B},      {SCIFFCT, 0x705C},      {CCR_TWO_STOP, 1u << 7},
+        {CCR_EVEN, 1u << 6},      {CCR_PARITY, 1u << 5},  {CCR_LOOP, 1u << 4},    {CCR_8_BITS, 8 - 1},
+        {CCR_7_BITS, 7 - 1},      {CTL1_RUN, 1u << 5},    {CTL1_TXENA, 1u << 1},  {CTL1_RXENA, 1u << 0},
+        {CTL1_RX_ERR_ENA, 1u << 6}, {CTL2_TX_EMPTY, 1u << 6}, {RXST_ERROR, 1u << 7}, {RXST_BREAK, 1u << 5},
+        {RXST_FE, 1u << 4},       {RXST_OE, 1u << 3},     {RXST_PE, 1u << 2},     {RXBUF_FE, 1u << 15},
+        {RXBUF_PE, 1u << 14},     {FFTX_ON, 3u << 14},    {FFTX_FIFO_ON, 1u << 13}, {FFTX_INT_CLEAR, 1u << 6},
+        {FFTX_INT_ENA, 1u << 5},  {FFRX_OVERFLOW, 1u << 15}, {FFRX_OVF_CLEAR, 1u << 14}, {FFRX_FIFO_ON, 1u << 13},
+        {FFRX_INT_CLEAR, 1u << 6}, {FFRX_INT_ENA, 1u << 5}, {FIFO_COUNT(0x1F00), 0x1F}, {FIFO_COUNT(0xE0FF), 0},
+    };
+    for (unsigned i = 0; i < sizeof table / sizeof table[0]; i++)
+        TEST_ASSERT_EQUAL_HEX16(table[i][1], table[i][0]);
+}
+
 static void echo_back_sets_the_documents_registers_and_says_its_texts(void)
 {
     f2808_write(GPASET, BOARD_DRIVER_PIN);
@@ -182,6 +201,7 @@ static void the_driver_drops_after_the_last_stop_bit_and_within_two_bit_times(vo
 int main(void)
 {
     UNITY_BEGIN();
+    RUN_TEST(registers_and_bits_are_the_documents);
     RUN_TEST(echo_back_sets_the_documents_registers_and_says_its_texts);
     RUN_TEST(each_rate_has_the_divisor_of_the_formula_or_is_refused);
     RUN_TEST(each_format_is_programmed_as_the_register_table_says);

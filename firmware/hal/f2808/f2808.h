@@ -1,7 +1,7 @@
 /* Registers of the TMS320F2808: SCI-A, CPU timers 0 and 1, PIE, GPIO, watchdog. Addresses are of 16-bit words. Sources: TI
  * SPRUFK7 (SCI), SPRU712 (system control and interrupts), SPRU716 for the echo-back set-up the tests repeat.
  *
- * "reg.h" gives reg_get(address) and reg_set(address, value): the memory itself on the part, the model in tests. */
+ * "reg.h" gives reg_get(address) and reg_set(address, value): the memory itself on the part (part/reg.h), the model in tests. */
 #ifndef FIELDLING_F2808_H
 #define FIELDLING_F2808_H
 

@@ -1,6 +1,6 @@
 /* The machine around the line on the F2808. "cpu.h" gives what the compiler knows of the CPU: cpu_mask() -> whether
  * interrupts were on, cpu_unmask(), cpu_idle(), cpu_allow() and cpu_protect() (EALLOW, EDIS), cpu_vectors(timer0, rx, tx),
- * cpu_restart(why). */
+ * cpu_restart(why): part/cpu.h on the part, the model's in tests. */
 #ifndef FIELDLING_F2808_MACHINE_H
 #define FIELDLING_F2808_MACHINE_H
 
