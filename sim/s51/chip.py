@@ -20,6 +20,9 @@ import time
 CLOCKS = 12  # a machine cycle
 PARITY = ("^".join(f"(uart0_received_char>>{n})" for n in range(8))).join(("(", ")&1"))
 RI_BIT, P3_2_BIT, SBUF = 0x98, 0xB2, 0x99
+# struct fdl_counters, 16 bits each: firmware/fdl/fdl.h
+FDL_COUNTERS = ("sd_count sd_error_count parity overrun gap format checksum foreign requests retries answers cancelled "
+                "refused").split()
 
 
 class Stuck(Exception):
@@ -27,11 +30,11 @@ class Stuck(Exception):
 
 
 def symbols(image):
-    """Global labels in code of the image's map file."""
+    """Global labels of the image's map file: in code, and in external RAM."""
     found = {}
     with open(image.replace(".ihx", ".map")) as lines:
         for line in lines:
-            match = re.match(r"\s*C:\s*([0-9A-F]{8})\s+_(\w+)", line)
+            match = re.match(r"\s*[CD]:\s*([0-9A-F]{8})\s+_(\w+)", line)
             if match:
                 found[match[2]] = int(match[1], 16)
     return found
@@ -74,8 +77,9 @@ class Chip:
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, bufsize=0)
         self.count, self.breaks, self.text, self.log = 0, 0, b"", []
         self.command("uart0_check_often=1")
-        self.command("var spoil")
-        self.watch(f"bits w 0x{RI_BIT:x}", f"spoil=spoil-RI;RB8=({PARITY})^(spoil==0);expr /d 810000+RI;expr /d sim_ticks")
+        self.command("var heard\nvar spoil\nvar every\nheard=0\nspoil=0\nevery=0xffffffff")
+        self.watch(f"bits w 0x{RI_BIT:x}", f"heard=heard+RI;RB8=({PARITY})^((heard==spoil)|((heard%every)==0));"
+                   "expr /d 810000+RI;expr /d sim_ticks")
         self.watch(f"sfr w 0x{SBUF:x}", "expr /d 820000+TB8;expr /d sim_ticks")
         self.command(f"set mem sfr 0x90 0x{~switches & 0x7f | 0x80:x}")
 
@@ -122,6 +126,10 @@ class Chip:
         self.command(f"break {event}")
         return self.breaks
 
+    def counter_at(self, name):
+        """Where an FDL counter stands in external RAM, low octet first."""
+        return self.symbols["fdl_counters"] + 2 * FDL_COUNTERS.index(name)
+
     @property
     def cycles(self):
         return self.value("sim_ticks") // CLOCKS
@@ -135,7 +143,11 @@ class Chip:
 
     def spoil(self, number):
         """The number-th octet from now (1..) comes with wrong parity."""
-        self.value(f"spoil={number}")
+        self.value(f"spoil=heard+{number}")
+
+    def spoil_every(self, number):
+        """So does every number-th one."""
+        self.value(f"every={number}")
 
     def step(self, instructions):
         """Nothing that is watched may happen meanwhile: it would turn the step into a run."""

@@ -11,6 +11,7 @@ What the simulator writes down while it runs, chip.py has the list, is kept for 
 """
 import collections
 import os
+import re
 import select
 import threading
 import time
@@ -23,12 +24,15 @@ PAUSE = 0.03    # seconds: eight times T_SYN at 9600 bit/s
 PIECE = 0.03     # seconds without an octet end an answer
 BREAK = 2600    # machine cycles between the ends of two octets of different telegrams: two octets at 9600 bit/s and more
 
+FOUND = bytes.fromhex("10 7D 02 49 C8 16")  # FDL status of station 125: a telegram to end the baud search with
+COUNT = 870000   # in the simulator's notes: a counter's low octet
+
 Request = collections.namedtuple("Request", "octets answered")
 
 
 class ChipOnPty(s51.Chip):
     def __init__(self, image, rate_n, **options):
-        """Up to the moment the baud search has found silence at Timer 2's divisor rate_n; then it runs."""
+        """Up to the moment the baud search has found the rate, Timer 2's divisor rate_n; then it runs."""
         super().__init__(image, **options)
         self.ends = os.pipe()
         self.noted, self.octets_sent = bytearray(), bytearray()
@@ -38,6 +42,7 @@ class ChipOnPty(s51.Chip):
         self.threads = [threading.Thread(target=work, daemon=True) for work in (self._relay, self._note)]
         try:
             self.wait_for_rate(rate_n)
+            self.ask(FOUND)
         except BaseException:
             self.close()
             raise
@@ -85,7 +90,16 @@ class ChipOnPty(s51.Chip):
         while data := os.read(self.process.stdout.fileno(), 65536):
             self.noted += data.replace(b"\0", b"")
 
+    def note(self, counter):
+        """Each value of an FDL counter will be written down. Before start()."""
+        cell = f"0x{self.counter_at(counter):x}"
+        self.watch(f"xram w {cell}", f"expr /d {COUNT}+xram[{cell}]")
+
     # ---- when it has ended ----
+
+    def noted_counts(self):
+        """-> the values that note()'s counter has taken."""
+        return [int(n) for n in re.findall(rf"^{COUNT // 1000}(\d{{3}})$", self.noted.decode(errors="replace"), re.M)]
 
     def read_log(self):
         self.log = []
