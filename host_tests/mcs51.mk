@@ -6,14 +6,11 @@ host_tests/s51_dp.py_TIMEOUT      := 300
 host_tests/s51_masters.py_TIMEOUT := 300
 host_tests/s51_states.py_TIMEOUT  := 300
 
-# The DP image for a 24 MHz crystal: 19.2 kbit/s, and tests only.
-87c51fb_24mhz_CONFIG := dp_test01.h
-87c51fb_24mhz_CFLAGS := -Iboards/87c51fb -DFOSC_HZ=24000000ul
-87c51fb_24mhz_CODE    = $(87c51fb_CODE)
-87c51fb_24mhz_XRAM    = $(87c51fb_XRAM)
-87c51fb_24mhz/fieldling-dp_SRC      = $(87c51fb/fieldling-dp_SRC)
-87c51fb_24mhz/fieldling-dp_DEFAULTS = $(87c51fb/fieldling-dp_DEFAULTS)
-$(eval $(call mcs51_image,87c51fb_24mhz,fieldling-dp))
+# The DP image for a 24 MHz crystal, which has 19.2 kbit/s.
+87c51fb/fieldling-dp-24mhz_SRC      = $(87c51fb/fieldling-dp_SRC)
+87c51fb/fieldling-dp-24mhz_DEFAULTS = $(87c51fb/fieldling-dp_DEFAULTS)
+87c51fb/fieldling-dp-24mhz_CFLAGS  := -UFOSC_HZ -DFOSC_HZ=24000000ul
+$(eval $(call mcs51_image,87c51fb,fieldling-dp-24mhz))
 
 BENCHES += bench-s51
 bench-s51: build/87c51fb/fieldling-dp.ihx

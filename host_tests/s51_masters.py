@@ -22,17 +22,17 @@ sys.path.insert(0, str(ROOT / "sim" / "s51"))
 from chip_pty import ChipOnPty  # noqa: E402
 
 Line = namedtuple("Line", "rate mhz n image")  # n: Timer 2's divisor
-AT_9600 = Line(9600, 12, 39, "87c51fb")
-AT_19200 = Line(19200, 24, 39, "87c51fb_24mhz")
-AT_93750 = Line(93750, 12, 4, "87c51fb")
+AT_9600 = Line(9600, 12, 39, "fieldling-dp")
+AT_19200 = Line(19200, 24, 39, "fieldling-dp-24mhz")
+AT_93750 = Line(93750, 12, 4, "fieldling-dp")
 
 ADDRESS = 5      # the switches
-EXCHANGES = 40
+EXCHANGES = 25 
 SECONDS = 60.0   # for one exchange, bring-up included
 OLD_INPUTS = 3   # so many answers may still carry inputs from before the outputs
 SLOT_MS = 1000   # of fieldling-master; its retries are as many as it takes
 SETUP = f"slave {ADDRESS}\n gsd {ROOT}/gsd/FLDL1234.GSD\n watchdog 60000\n"  # [ms]: longer than some slots
-SPOILT = 97      # one in so many octets has wrong parity
+SPOILT = 89      # one in so many octets has wrong parity
 
 
 def wait_longer(times=20):
@@ -62,7 +62,7 @@ def exchange_all(master, n):
 
 def on_chip(line, talk, prepare=lambda chip: None):
     """talk(pty) with the chip at its end. -> the chip, when it has ended"""
-    with ChipOnPty(str(ROOT / f"build/{line.image}/fieldling-dp.ihx"), line.n, mhz=line.mhz, switches=ADDRESS) as chip:
+    with ChipOnPty(str(ROOT / f"build/87c51fb/{line.image}.ihx"), line.n, mhz=line.mhz, switches=ADDRESS) as chip:
         prepare(chip)
         chip.start()
         talk(chip.pty)
@@ -137,9 +137,10 @@ def exchanged(line, prepare=lambda chip: None):
         expect(what, said[what], number_of)
     if said["exchanges"] < EXCHANGES - 15:  # so many cycles may bring-up take
         raise AssertionError(f"only {said['exchanges']} exchanges")
-    for inputs, outputs in zip(bytes.fromhex(said["inputs"]), bytes.fromhex(said["outputs"])):
-        if not 0 < inputs <= outputs:  # --count: now and then by one
-            raise AssertionError(f"inputs {said['inputs']} behind outputs {said['outputs']}")
+    # --count: each output goes up by one now and then; the last exchange may have brought the inputs from before that
+    behind = [o - i for i, o in zip(bytes.fromhex(said["inputs"]), bytes.fromhex(said["outputs"]))]
+    if behind not in ([0, 0], [1, 1]) or said["inputs"] == "00 00":
+        raise AssertionError(f"inputs {said['inputs']} behind outputs {said['outputs']}")
     print(f"    {said['exchanges']} exchanges, {said['retries']} retries")
     return chip, said
 
@@ -163,11 +164,10 @@ def test_octets_with_wrong_parity_are_counted_and_the_exchange_goes_on():
 
     chip, said = exchanged(AT_9600, prepare)
     counts = chip.noted_counts()
-    if len(counts) < 4:
+    if len(counts) < 3:
         raise AssertionError(f"only {len(counts)} octets with wrong parity")
     expect("counted", counts, list(range(1, len(counts) + 1)))
-    if said["retries"] < len(counts) - 1:  # behind a wrong octet the rest of its telegram is not looked at
-        raise AssertionError(f"{said['retries']} retries for {len(counts)} wrong octets")
+    expect("the master repeated what was dropped", said["retries"] > 0, True)  # but for Global_Control
 
 
 if __name__ == "__main__":
