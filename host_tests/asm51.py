@@ -80,7 +80,7 @@ class Source:
         self.overlaid = []          # variables in the overlay area
         self.tables = set()         # names in tables of constants
         self._immediate = set()     # names whose address code works with
-        self._data = set()
+        self.data = set()
         self._parse(Path(path).read_text(errors="replace"))
 
     def _parse(self, text):
@@ -99,7 +99,7 @@ class Source:
                     current = Function(name[1:], self.path)
                     self.functions.append(current)
                 else:
-                    self._data.add(name[1:])
+                    self.data.add(name[1:])
                     if area == "OSEG":
                         self.overlaid.append(name[1:])
             op, _, operands = line.replace("\t", " ").partition(" ")
@@ -120,7 +120,7 @@ class Source:
 
     def addresses_taken(self):
         """Names of functions that tables or code have the address of; of other files' data, too, from tables."""
-        return (self.tables | self._immediate) - self._data
+        return (self.tables | self._immediate) - self.data
 
 
 class Program:
@@ -131,11 +131,12 @@ class Program:
         self._own = {(f.path, f.name): f for f in self.functions}
         self._exported = {f.name: f for f in self.functions if f.name in self.sources[f.path].exported}
         self._library = {}
+        self.data = {name for source in self.sources.values() for name in source.data}
         self.handlers = {f for source in self.sources.values() for f in self._functions_taken(source)}
 
     def _functions_taken(self, source):
         """What a call through a pointer may reach: every function whose address some file takes."""
-        for name in source.addresses_taken():
+        for name in source.addresses_taken() - self.data:
             function = self.resolve(source.path, name)
             if function and function.code and function.code[0][0] != ".db":
                 yield function

@@ -69,6 +69,13 @@ def is_bare(function):
     return bool(function.code)
 
 
+def is_stateless(function):
+    """Calls nothing, keeps nothing: works with A and carry alone, which whoever breaks in saves."""
+    return not any(function.calls()) and all(
+        op in ("ret", "clr", "setb", "cpl", "mov", "anl", "orl", "jb", "jnb") and f"_{function.name}_" not in operands and
+        not re.search(r"@|\b(b|dptr|dpl|dph|a?r[0-7])\b", operands) for op, operands in function.code)
+
+
 def check_calls(function, handlers, bare):
     """Rules 1 to 4 for one function."""
     inside = is_interrupt(function.name)

@@ -10,7 +10,7 @@ usage: check_image.py [--root DIR] IMAGE.ihx ...     IMAGE/ holds the .asm files
   3  what is reached from the vectors, over any number of calls, is interrupt code (check_contexts.py), and no routine
      of SDCC's library: no generic pointer, no multiplication or division but the core's own MUL AB and DIV AB;
   4  interrupts of different priority reach disjoint functions and register banks: one breaks into the other, and locals
-     are static;
+     are static; but a function without memory and registers of its own, other than A, may be shared;
   5  where the lock leaves interrupts on, what the main loop reaches does not select the interrupt functions' register
      bank: they run on in it.
 """
@@ -19,7 +19,7 @@ import sys
 from pathlib import Path
 
 from asm51 import load
-from check_contexts import ANYWHERE, LOCK, is_bare, is_interrupt
+from check_contexts import ANYWHERE, LOCK, is_bare, is_interrupt, is_stateless
 from stack51 import INTERRUPTS, Unknown, by_priority, enabled, vector
 
 DEFINITION = re.compile(r"\b(\w+)\s*\([^;{}()]*\)\s*__interrupt\s*\(([^)]*)\)[^;{}]*\{")
@@ -74,7 +74,7 @@ def check_reached(program):
                 yield f"{path_to(function, reached)}: a routine of SDCC's library in interrupt code"
             elif not is_interrupt(function.name) and not anywhere(function):
                 yield f"{path_to(function, reached)}: not interrupt code"
-            elif not anywhere(function) and seen.setdefault(function, level) != level:
+            elif not anywhere(function) and not is_stateless(function) and seen.setdefault(function, level) != level:
                 yield f"{path_to(function, reached)}: interrupts of two priorities run it"
             for bank in banks(function):
                 if seen.setdefault(bank, level) != level:
@@ -87,15 +87,21 @@ def banks(function):
             for n in re.findall(r"^psw,#(0x[0-9a-f]+)$", operands.replace(" ", ""))]
 
 
+def left_on(program):
+    """Functions of the interrupts that the lock does not mask."""
+    lock = program.resolve(None, LOCK)
+    masked = {operands.split(",")[0].lstrip("_") for op, operands in lock.code if op in ("clr", "jbc")} if lock else {"EA"}
+    for number in () if "EA" in masked else enabled(program):
+        name = program.image.target(vector(number))
+        if name and INTERRUPTS[number][0] not in masked:
+            yield program.resolve(None, name[1:])
+
+
 def check_banks(program):
     """Rule 5."""
-    lock = program.resolve(None, LOCK)
-    if lock is None or any(op in ("clr", "jbc") and operands.startswith("_EA") for op, operands in lock.code):
-        return
     reached = program.reached_from([program.resolve(None, "main")])
     # an interrupt function's own bank is the first it selects
-    entries = [f for f in program.functions if f.code and f.code[-1][0] == "reti" and f not in reached]
-    taken = {bank for entry in entries for bank in banks(entry)[:1]}
+    taken = {bank for entry in left_on(program) for bank in banks(entry)[:1]}
     for function in reached:
         if taken & set(banks(function)):
             yield f"{path_to(function, reached)}: selects the register bank of interrupts that the lock leaves on"
