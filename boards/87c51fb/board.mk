@@ -6,7 +6,7 @@ FOSC ?= 12000000
 87c51fb_CFLAGS := -DFOSC_HZ=$(FOSC)ul
 87c51fb_CODE   := 0x4000
 87c51fb_XRAM   := 0x7FE0
-87c51fb_HAL    := $(addprefix firmware/hal/mcs51/,machine.c serial.c silence.c held.c nv_ram.c con_none.c)
+87c51fb_HAL    := $(addprefix firmware/hal/mcs51/,machine.c serial.c silence.c nv_ram.c con_none.c)
 
 87c51fb/fieldling-dp_SRC      := boards/common/main_mcs51_dp.c boards/87c51fb/board.c $(87c51fb_HAL) firmware/hal/mcs51/chunk.c $(filter-out %/fma_watch.c,$(DP_STATION)) boards/common/no_fma_watch.c
 87c51fb/fieldling-dp_DEFAULTS := $(DP_DEFAULTS)

@@ -9,9 +9,9 @@
 #define FOSC_HZ 12000000ul
 #endif
 
-/* P3.2 driver enable of the transceiver, P3.3 watchdog input of the supervisor: an edge kicks. */
+/* P3.2 driver enable of the transceiver, P3.5 watchdog input of the supervisor: an edge kicks. */
 #define DRIVER_ENABLE P3_2
-#define WATCHDOG      P3_3
+#define WATCHDOG      P3_5
 #define DRIVER_ON()  (DRIVER_ENABLE = 1)
 #define DRIVER_OFF() (DRIVER_ENABLE = 0)
 #define WDOG_KICK()  (WATCHDOG = !WATCHDOG)

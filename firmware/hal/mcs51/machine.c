@@ -4,9 +4,7 @@
 #include "hal/mcs51/mcs51.h"
 
 #define T1_T0_16_BIT 0x11u /* TMOD */
-#define PRIORITY_LINE 0x12u /* IP: serial port and Timer 0 before everything else */
-
-volatile __bit locked;
+#define PRIORITY_LINE 0x12u /* IP: serial port and Timer 0 interrupt everything else */
 
 volatile HOT uint8_t overflows; /* of Timer 1 */
 
@@ -27,30 +25,28 @@ void hal_init(void)
     DRIVER_OFF();
     P2 = 0; /* the page of PAGED: the linker puts it first */
     EA = 0;
-    locked = 1;
     TMOD = T1_T0_16_BIT;
     TR1 = 1;
     IP = PRIORITY_LINE;
+    IT1 = 1; /* IE1 stays until the service has been entered */
     ET1 = 1;
 }
 
+/* The lock masks the service: see mcs51.h. */
 uint8_t hal_irq_save(void)
 {
-    uint8_t was = locked ? 0 : HAL_IRQ_ON;
+    uint8_t was = EX1;
 
-    locked = 1;
+    EX1 = 0;
     return was;
 }
 
-/* A TI that nobody sent is the doorbell: the serial interrupt comes and serves what has waited. */
 void hal_irq_restore(uint8_t state)
 {
     if (!state)
         return;
     EA = 1;
-    locked = 0;
-    if (held_any && !sending)
-        TI = 1;
+    EX1 = 1;
 }
 
 void tick_timer_isr(void) __interrupt(3) __naked

@@ -1,27 +1,16 @@
-/* The line: serial port and Timer 2.
+/* The line: serial port and Timer 2. What a character looks like is said by chunk.c or octet.c.
  *
- * Where the bits go. Mode 3 has nine bits a character, the ninth in TB8 and RB8; mode 1 has eight.
- *   8E1, 8O1  mode 3, parity ninth            7E1, 7O1  mode 1, parity eighth
- *   8N2       mode 3, ninth 1 = a stop bit    7N2       mode 1, eighth 1 = a stop bit        8N1  mode 1
  * The core shows neither a wrong stop bit nor a lost octet; what they do to a telegram its checks find.
  */
 #include <8052.h>
 
 #include "hal/mcs51/mcs51.h"
 
-#define SCON_MODE_3 0xC0u
-#define SCON_MODE_1 0x40u
-#define SCON_REN    0x10u
-#define T2CON_BAUD  0x34u /* receive and transmit clock from Timer 2, running */
+#define T2CON_BAUD 0x34u /* receive and transmit clock from Timer 2, running */
 
-/* Below this an interrupt for each octet takes nearly all of the time there is: stay until the telegram is over. */
-#define BURST_OCTET_CYCLES 150u
-/* Below this the receiver of the stack cannot follow; of DP: 100 cycles are 110 kbit/s at 12 MHz. */
-#ifndef MIN_OCTET_CYCLES
-#define MIN_OCTET_CYCLES 100u
-#endif
-#define MIN_N (MIN_OCTET_CYCLES * 3u / 88u + 1u) /* an octet lasts 88 N / 3 cycles */
-/* Below this an interrupt an octet would leave gaps: stay until all are sent. */
+/* Below this an octet leaves so little time that the service stays until the telegram is over. */
+#define BURST_OCTET_CYCLES 100u
+/* Below this an interrupt an octet would leave gaps: the service stays until all are sent. */
 #ifndef POLLED_BIT_CYCLES
 #define POLLED_BIT_CYCLES 80u
 #endif
@@ -30,200 +19,145 @@
 
 volatile __bit sending;
 volatile __bit burst;
-volatile __bit polled;
-volatile __bit deaf;
-volatile __bit eager;
-HOT uint8_t octet;
-HOT uint8_t octet_err;
-IDATA uint16_t octet_cycles;
 
-static volatile __bit parity; /* the character has a parity bit       */
-static volatile __bit odd;    /* it is odd                            */
-static volatile __bit seven;  /* seven data bits: the eighth is added */
+static volatile __bit polled;
 static const uint8_t XDATA *HOT tx_at;
-static HOT uint16_t tx_left;
-static IDATA uint16_t bit_cycles; /* a bit lasts bit_cycles + bit_thirds / 3 machine cycles */
+static const uint8_t XDATA *HOT tx_end;
+static HOT uint8_t stop_bit_low; /* Timer 0 a bit time before its overflow */
+static HOT uint8_t stop_bit_high;
+static uint16_t bit_cycles; /* a bit lasts bit_cycles + bit_thirds / 3 machine cycles */
 static uint8_t bit_thirds;
-
-/* ---- receive ---------------------------------------------------------------------------------------------------------------- */
-
-/* In assembly because SDCC does not know that P follows each change of A. */
-void receive_isr(void) __using(2)
-{
-    __asm
-        mov a,_SBUF
-        mov _octet,a
-        clr _RI
-        mov _octet_err,#0
-        jnb _parity,00003$
-        mov c,_P
-        jnb _odd,00001$
-        cpl c
-    00001$:
-        jb _seven,00002$
-        jnb _RB8,00002$
-        cpl c
-    00002$:
-        jnc 00003$
-        mov _octet_err,#1 ; HAL_ERR_PARITY
-    00003$:
-    __endasm;
-    if (seven)
-        octet &= 0x7Fu;
-    silence_restart_isr();
-}
-
-/* A deaf receiver needs no more than the clock set back: 17 of an octet's 59 cycles, and nothing to save. */
-void serial_isr(void) __interrupt(4) __naked
-{
-    __asm
-        jnb _deaf,00001$
-        jnb _RI,00001$
-        clr _TR0
-        mov _TL0,_reload_low
-        mov _TH0,_reload_high
-        setb _TR0
-        clr _RI
-        clr _TF0
-        clr _endless
-        setb _armed
-        reti
-    00001$:
-        ljmp _serial_work_isr
-    __endasm;
-}
-
-void serial_work_isr(void) __interrupt __using(2)
-{
-    if (RI) {
-        if (eager && !locked && !held_any) {
-            burst_isr();
-        } else if (sending) {
-            RI = 0;
-        } else {
-            receive_isr();
-            if (locked || held_any)
-                hold_octet_isr();
-            else
-                take_isr();
-        }
-    }
-    if (TI) {
-        TI = 0;
-        if (sending)
-            send_next_isr();
-        else if (!locked)
-            held_serve_isr();
-    }
-}
 
 /* ---- send ------------------------------------------------------------------------------------------------------------------- */
 
-static HOT uint8_t out;
+/* octets come in dptr. In assembly because the master waits for the first one. */
+void hal_send(const uint8_t XDATA *octets, uint16_t n) IN_ISR __naked
+{
+    octets, n;
+    __asm
+        clr _REN
+        clr _TR0
+        clr _TF0
+        clr _TI
+        setb _sending
+    __endasm;
+    DRIVER_ON();
+    __asm
+        movx a,@dptr
+        lcall _ninth_isr
+        mov _SBUF,a
+        inc dptr
+        mov _tx_at,dpl
+        mov (_tx_at + 1),dph
+        mov r6,dpl
+        mov r7,dph
+        mov dptr,#_hal_send_PARM_2
+        movx a,@dptr            ; end = at - 1 + n
+        add a,r6
+        mov r6,a
+        inc dptr
+        movx a,@dptr
+        addc a,r7
+        mov r7,a
+        mov a,r6
+        jnz 00001$
+        dec r7
+    00001$:
+        dec r6
+        mov _tx_end,r6
+        mov (_tx_end + 1),r7
+        jnb _polled,00002$
+        clr _ES
+        setb _IE1
+    00002$:
+        ljmp _receive_off_isr
+    __endasm;
+}
 
-/* `out` to the line, with its parity or second stop bit. Uses no register but A. */
-static void put_isr(void) IN_ISR __naked
+/* After the last octet Timer 0 waits for its stop bit: TI comes with its beginning (in some cores at its end). */
+void send_next_isr(void) __naked
 {
     __asm
-        mov a,_out
-        mov c,_P
-        jnb _odd,00001$
-        cpl c
+        jnb _TI,00003$
+        clr _TI
+        jnb _sending,00003$
+        push psw
+        push acc
+        push dpl
+        push dph
+        mov dpl,_tx_at
+        mov dph,(_tx_at + 1)
+        mov a,dpl
+        cjne a,_tx_end,00001$
+        mov a,dph
+        cjne a,(_tx_end + 1),00001$
+        mov _TL0,_stop_bit_low
+        mov _TH0,_stop_bit_high
+        setb _ET0
+        setb _TR0
+        sjmp 00002$
     00001$:
-        jb _parity,00002$
-        setb c
-    00002$:
-        jb _seven,00003$
-        mov _TB8,c
-        sjmp 00004$
-    00003$:
-        mov acc.7,c
-    00004$:
+        movx a,@dptr
+        lcall _ninth_isr
         mov _SBUF,a
+        inc dptr
+        mov _tx_at,dpl
+        mov (_tx_at + 1),dph
+    00002$:
+        pop dph
+        pop dpl
+        pop acc
+        pop psw
+    00003$:
+        reti
+    __endasm;
+}
+
+/* All octets, each of them ready when TI comes, and the last stop bit. */
+static void send_polled_isr(void) IN_ISR __naked
+{
+    __asm
+        mov dpl,_tx_at
+        mov dph,(_tx_at + 1)
+        sjmp 00003$
+    00001$:
+        movx a,@dptr
+        inc dptr
+        lcall _ninth_isr        ; the character on the line has its own already
+    00002$:
+        jnb _TI,00002$
+        mov _SBUF,a
+        clr _TI
+    00003$:
+        mov a,dpl
+        cjne a,_tx_end,00001$
+        mov a,dph
+        cjne a,(_tx_end + 1),00001$
+    00004$:
+        jnb _TI,00004$
+        clr _TI
+        mov a,_stop_bit_low
+    00005$:
+        add a,#4                ; cycles a turn
+        jnc 00005$
         ret
     __endasm;
 }
 
-void hal_send(const uint8_t XDATA *octets, uint16_t n) IN_ISR
+void sent_isr(void) IN_ISR
 {
-    out = *octets;
-    tx_at = octets + 1;
-    tx_left = n;
-    tx_left--;
-    REN = 0;
-    TR0 = 0;
-    TI = 0;
-    deaf = 0;
-    eager = 0;
-    if (held_any)
-        held_drop_isr();
-    DRIVER_ON();
-    sending = 1;
-    put_isr();
-}
-
-/* TI comes with the stop bit (in some cores at its end): one bit time more before the driver goes off. */
-static void last_stop_bit_isr(void) __using(2)
-{
-    TL0 = (uint8_t)(0u - bit_cycles);
-    TH0 = (uint8_t)((0u - bit_cycles) >> 8);
-    TF0 = 0;
-    TR0 = 1;
-}
-
-void send_next_isr(void) __using(2)
-{
-    if (polled) {
-        TI = 1;
-        send_burst_isr();
+    if (polled)
+        send_polled_isr();
+    else if (!due)
         return;
-    }
-    if (tx_left == 0) {
-        last_stop_bit_isr();
-        return;
-    }
-    out = *tx_at;
-    put_isr();
-    tx_at++;
-    tx_left--;
-}
-
-/* PROFIBUS only: 8E1. The next octet stands ready when TI comes. */
-void send_burst_isr(void) __using(2)
-{
-    while (tx_left) {
-        out = *tx_at;
-        tx_at++;
-        tx_left--;
-        __asm
-            mov a,_out
-        00001$:
-            jnb _TI,00001$
-            mov c,_P
-            mov _TB8,c
-            mov _SBUF,a
-            clr _TI
-        __endasm;
-    }
-    while (!TI)
-        ;
-    TI = 0;
-    last_stop_bit_isr();
-}
-
-void send_end_isr(void) __using(2)
-{
     DRIVER_OFF();
     sending = 0;
+    due = 0;
     RI = 0;
     REN = 1;
     silence_restart_isr();
-    if (locked) {
-        hold_sent_isr();
-        return;
-    }
+    ES = 1;
     line_sent_isr();
-    look_isr();
 }
 
 /* ---- open ------------------------------------------------------------------------------------------------------------------- */
@@ -244,54 +178,75 @@ static uint16_t divisor(uint32_t bit_per_s)
     return sum <= RATE_AT_1 + TOLERANCE ? n : 0;
 }
 
-/* 8 N / 3 machine cycles */
-static void set_bit_time(uint16_t n)
+/* A time in machine cycles and thirds of one; it saturates. */
+static uint16_t cycles;
+static uint8_t thirds;
+
+static void add(uint16_t more_cycles, uint8_t more_thirds)
 {
-    bit_cycles = 0;
-    bit_thirds = 0;
-    for (; n; n--) {
-        bit_cycles = (uint16_t)(bit_cycles + 2u);
-        bit_thirds = (uint8_t)(bit_thirds + 2u);
-        if (bit_thirds >= 3) {
-            bit_thirds = (uint8_t)(bit_thirds - 3u);
-            bit_cycles++;
-        }
+    thirds = (uint8_t)(thirds + more_thirds);
+    if (thirds >= 3) {
+        thirds = (uint8_t)(thirds - 3u);
+        if (++more_cycles == 0)
+            more_cycles = 0xFFFFu;
+    }
+    cycles = (uint16_t)(cycles + more_cycles);
+    if (cycles < more_cycles)
+        cycles = 0xFFFFu;
+}
+
+/* n bit times, from the highest bit of n on. */
+static void bit_times(uint16_t n)
+{
+    uint8_t i;
+
+    cycles = 0;
+    thirds = 0;
+    for (i = 16; i; i--) {
+        add(cycles, thirds);
+        if (n & 0x8000u)
+            add(bit_cycles, bit_thirds);
+        n = (uint16_t)(n << 1);
     }
 }
 
-static void set_format(uint8_t format)
+hal_dur_t hal_tbit(uint16_t n)
 {
-    bool nine = format == HAL_8E1 || format == HAL_8O1 || format == HAL_8N2;
+    bit_times(n);
+    if (thirds)
+        add(0, (uint8_t)(3u - thirds));
+    return cycles;
+}
 
-    parity = format == HAL_8E1 || format == HAL_8O1 || format == HAL_7E1 || format == HAL_7O1;
-    odd = format == HAL_8O1 || format == HAL_7O1;
-    seven = format >= HAL_7E1;
-    SCON = nine ? SCON_MODE_3 : SCON_MODE_1;
-    TB8 = 1;
+/* 8 N / 3 machine cycles: N times 2 and two thirds */
+static void set_bit_time(uint16_t n)
+{
+    bit_cycles = 2;
+    bit_thirds = 2;
+    bit_times(n);
+    bit_cycles = cycles;
+    bit_thirds = thirds;
+    stop_bit_low = (uint8_t)(0u - bit_cycles);
+    stop_bit_high = (uint8_t)((0u - bit_cycles) >> 8);
+    polled = bit_cycles < POLLED_BIT_CYCLES;
+    burst = hal_tbit(11) < BURST_OCTET_CYCLES;
 }
 
 uint8_t hal_line_open(uint32_t bit_per_s, uint8_t format)
 {
-    uint16_t n;
-    uint8_t irq;
+    uint16_t n = bit_per_s ? divisor(bit_per_s) : 0;
+    uint8_t irq = hal_irq_save();
 
-    if (bit_per_s == 0 || format >= HAL_FORMATS)
-        return HAL_LINE_NO; /* no loop in this core */
-    n = divisor(bit_per_s);
-    if (n < MIN_N)
+    if (!receive_open(n, format)) {
+        hal_irq_restore(irq);
         return HAL_LINE_NO;
-    irq = hal_irq_save();
+    }
     ES = 0;
+    ET0 = 0;
     DRIVER_OFF();
     sending = 0;
-    deaf = 0;
-    eager = 0;
-    held_drop_isr();
+    receive_off_isr();
     set_bit_time(n);
-    octet_cycles = hal_tbit(11);
-    burst = octet_cycles < BURST_OCTET_CYCLES;
-    polled = bit_cycles < POLLED_BIT_CYCLES;
-    set_format(format);
     T2CON = 0;
     n = (uint16_t)(0u - n);
     RCAP2L = (uint8_t)n;
@@ -299,27 +254,9 @@ uint8_t hal_line_open(uint32_t bit_per_s, uint8_t format)
     TL2 = RCAP2L;
     TH2 = RCAP2H;
     T2CON = T2CON_BAUD;
-    silence_open();
+    silence_open_isr();
     REN = 1;
     ES = 1;
     hal_irq_restore(irq);
     return HAL_LINE_TIMED;
-}
-
-hal_dur_t hal_tbit(uint16_t n)
-{
-    uint16_t cycles = 0;
-    uint8_t thirds = 0;
-
-    for (; n; n--) {
-        cycles = (uint16_t)(cycles + bit_cycles);
-        thirds = (uint8_t)(thirds + bit_thirds);
-        if (thirds >= 3) {
-            thirds = (uint8_t)(thirds - 3u);
-            cycles++;
-        }
-        if (cycles < bit_cycles)
-            return 0xFFFFu;
-    }
-    return thirds && cycles != 0xFFFFu ? (hal_dur_t)(cycles + 1u) : cycles;
 }
