@@ -28,7 +28,7 @@ PATIENCE = 10.0
 
 
 def tool(board, name):
-    return name if board == "com86" else f"arm-none-eabi-{name}"
+    return {"com86": "", "rv32virt": "riscv64-unknown-elf-"}.get(board, "arm-none-eabi-") + name
 
 
 def output_of(*command):

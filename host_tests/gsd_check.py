@@ -227,6 +227,7 @@ CLOCKS = {
     "com86": ("hal_board.h", "BOARD_UART_HZ", 16, 1),
     "bluepill": ("hal_board.h", "BOARD_LINE_CLOCK_HZ", 1, 16),
     "lm3s6965evb": ("hal_board.h", "BOARD_CORE_HZ", 16 / 64, 64),
+    "rv32virt": ("hal_board.h", "BOARD_LINE_HZ", 16, 1),
 }
 BIT_PER_S = {"9.6": 9600, "19.2": 19200, "45.45": 45450, "93.75": 93750, "187.5": 187500, "500": 500000, "1.5M": 1500000,
              "3M": 3000000, "6M": 6000000, "12M": 12000000}

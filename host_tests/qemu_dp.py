@@ -96,6 +96,12 @@ def test_com86_line_is_8e1_and_the_driver_is_on_for_the_answer_only():
     expect("octets sent with the driver on", sent >= 6 + 1 + 6, True)
 
 
+def test_rv32virt_is_given_an_address_and_exchanges_data():
+    with Machine("rv32virt", "fieldling-dp") as machine:
+        set_address(machine)
+        exchange_data(machine, 8)
+
+
 def test_lm3s6965evb_exchanges_data():
     with Machine("lm3s6965evb", "fieldling-dp") as machine:
         exchange_data(machine, 3)

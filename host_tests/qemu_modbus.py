@@ -98,6 +98,10 @@ def test_libmodbus_runs_the_inverter_on_com86():
     libmodbus_runs_the_inverter("com86")
 
 
+def test_libmodbus_runs_the_inverter_on_rv32virt():
+    libmodbus_runs_the_inverter("rv32virt")
+
+
 def test_libmodbus_runs_the_inverter_on_lm3s6965evb():
     libmodbus_runs_the_inverter("lm3s6965evb")
 

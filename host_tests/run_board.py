@@ -16,7 +16,7 @@ from chip_pty import ChipOnPty  # noqa: E402
 MASTER = "build/posix/fieldling-master"
 RATE = "9600"  # what the station's baud search tries first
 IDENT = "0x1234"
-DELIVERED = {"com86": 126, "lm3s6965evb": 3}  # station address of the image
+DELIVERED = {"com86": 126, "lm3s6965evb": 3, "rv32virt": 126}  # station address of the image
 ADDRESS = 8
 CHIPS = {"87c51fb": (39, 5)}  # Timer 2's divisor for RATE, address switches
 

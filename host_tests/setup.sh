@@ -47,6 +47,12 @@ install_packages() { # PACKAGE ...
     exit 1
 }
 
+# For a board that is left out where they cannot be had.
+install_riscv() {
+    command -v riscv64-unknown-elf-gcc >/dev/null && command -v qemu-system-riscv32 >/dev/null && return 0
+    (install_packages gcc-riscv64-unknown-elf qemu-system-misc) || say "no RISC-V here: boards/rv32virt is left out"
+}
+
 # ---- Python packages, pinned, in build/venv ---------------------------------------------------------------
 install_python() {
     [ -x build/venv/bin/python ] || { say "python3 -m venv build/venv"; python3 -m venv build/venv; }
@@ -114,6 +120,7 @@ if command -v apt-get >/dev/null 2>&1; then
     find_cargo >/dev/null || PACKAGES="$PACKAGES cargo"
     # shellcheck disable=SC2046,SC2086 # lists
     install_packages $PACKAGES $(clang_runtime)
+    install_riscv
 else
     say "no apt-get here: please provide by hand: $(echo "$PACKAGES" | tr '\n' ' ')"
 fi

@@ -1,6 +1,6 @@
 # The boards: the contract of the port on every machine, module tests in QEMU, images under foreign masters.
 
-QEMU_BOARDS := com86 lm3s6965evb
+QEMU_BOARDS := com86 lm3s6965evb $(if $(rv32virt_TOOLS),rv32virt)
 qemu_suffix  = $(if $(filter com86,$1),bin,elf)
 TARGET_UNITY := -Ihost_tests/target/include -Ihost_tests/target -Ibuild/unity -DUNITY_INCLUDE_CONFIG_H
 
@@ -12,6 +12,7 @@ hal_contract_CFLAGS = -Ihost_tests -Ihost_tests/contract/virtual
 
 com86_CONTRACT       := -DCONTRACT_LOOP=1 -DCONTRACT_NV=1
 lm3s6965evb_CONTRACT := -DCONTRACT_LOOP=0 -DCONTRACT_NV=0
+rv32virt_CONTRACT := -DCONTRACT_LOOP=1 -DCONTRACT_NV=1
 $(foreach b,$(QEMU_BOARDS),$(eval $(call image,$b,hal_contract,\
     $($b_PORT) host_tests/hal_contract.c host_tests/target/console.c build/unity/unity.c,\
     $(TARGET_UNITY) -Ihost_tests -Ihost_tests/contract/board $($b_CONTRACT))))
@@ -105,7 +106,8 @@ bench-stack: $(STACK_OBJECTS)
 
 # ---- what the boards take --------------------------------------------------------------------------------------------------------
 
-GCC_IMAGES := $(foreach i,fieldling-dp fieldling-modbus,build/com86/$i.bin build/lm3s6965evb/$i.elf build/bluepill/$i.bin)
+GCC_IMAGES := $(foreach i,fieldling-dp fieldling-modbus,build/com86/$i.bin build/lm3s6965evb/$i.elf build/bluepill/$i.bin \
+    $(if $(rv32virt_TOOLS),build/rv32virt/$i.elf))
 SCRIPT_TESTS_ONCE += host_tests/budget.py
 host_tests/budget.py_TIMEOUT := 300
 SIZES   += size-boards
