@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Unity tests as images of the boards that QEMU has: the module tests, and the contract of the port.
 
-Time in the machine is counted instructions (-icount), so a busy host does not make it late. Each image writes what Unity writes to its console and ends with its status. The line's peer of the contract test
+Time in the machine is counted instructions (-icount) while it runs, and the host's while it sleeps. Each image writes what Unity writes to its console and ends with its status. The line's peer of the contract test
 (host_tests/hal_contract.h) is here: what the line has heard goes back after a silence.
 """
 import os
@@ -18,6 +18,7 @@ from machine import BOARDS, qemu
 
 ECHO_AFTER = 0.030
 PATIENCE = 60.0
+TRIES = 3
 
 
 def run(path):
@@ -51,14 +52,27 @@ def run(path):
     return status, output.decode(errors="replace").replace("\r", "")
 
 
+def passed(status, output):
+    return status == 0 and re.search(r"^\d+ Tests 0 Failures", output, re.M)
+
+
+def tried(path):
+    """The contract's image sleeps in the host's time, and a busy host wakes it late: what fails there is asked again."""
+    for left in reversed(range(TRIES if path.split("/")[-1].startswith("hal_contract.") else 1)):
+        status, output = run(path)
+        if passed(status, output) or not left:
+            return status, output
+        print(f"{path}: failed, and is tried again", flush=True)
+
+
 def main():
     with open("build/qemu_tests") as file:
         images = file.read().split()
     bad = False
     for path in images:
-        status, output = run(path)
+        status, output = tried(path)
         print(f"{path}:\n{output}", flush=True)
-        if status != 0 or not re.search(r"^\d+ Tests 0 Failures", output, re.M):
+        if not passed(status, output):
             print(f"{path}: exit status {status}")
             bad = True
     return 1 if bad else 0
