@@ -97,6 +97,24 @@ class Board(s51.Chip):
     def ms(self, n):
         self.do(*self.until_later(n * self.cycles_per_ms))
 
+    def turns(self, n=TURNS):
+        self.do(*self.until(LOOP, str(n)))
+
+    # ---- what the chip knows ----
+
+    def counter(self, name):
+        """An FDL counter's low octet."""
+        return self.value(f"xram[0x{self.counter_at(name):x}]")
+
+    def last_octet_in(self):
+        """When the last octet of the telegram asked last had come, machine cycles."""
+        written = [t for kind, _, t in self.log if kind == "TX"] or [self.now]
+        return [t for kind, value, t in self.log if kind == "RI" and value == 1 and t < written[0]][-1]
+
+    def turn(self):
+        """From there to the first octet of the answer, machine cycles."""
+        return [t for kind, _, t in self.log if kind == "TX"][0] - self.last_octet_in()
+
     # ---- the line ----
 
     def ask(self, text):
@@ -122,9 +140,15 @@ class Board(s51.Chip):
             return ""
 
     def pause(self, octets, bits):
-        """The octets, and silence for so long after them: RI is written when one comes and when it is fetched."""
+        """The octets, and silence for so long after them. RI is written when the last one has come, and when it is fetched."""
         os.write(self.input, octets)
-        self.do(*self.until_event(f"bits w 0x{s51.RI_BIT:x} {2 * len(octets)}"))
-        end = [t for kind, value, t in self.log if kind == "RI" and value == 1][-1] + bits * self.bit
+        last = self.now + (len(octets) * 11 - 2) * self.bit
+        came, fetched = 0, 0
+        while came < last or fetched < came:
+            since = max(0, int((last - self.now) * s51.CLOCKS))
+            self.do("since=sim_ticks", *self.until_event(f"bits w 0x{s51.RI_BIT:x} 1 if sim_ticks-since>={since}"))
+            came = max((t for kind, value, t in self.log if kind == "RI" and value == 1), default=0)
+            fetched = max((t for kind, value, t in self.log if kind == "RI" and value == 0), default=0)
+        end = came + bits * self.bit
         while end - self.now > self.bit:
             self.do(f"step {int((end - self.now) / 2)}")  # an instruction takes two cycles or less, four at most
