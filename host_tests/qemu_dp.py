@@ -107,6 +107,16 @@ def test_lm3s6965evb_exchanges_data():
         exchange_data(machine, 3)
 
 
+def test_lm3s6965evb_line_is_8e1():
+    with Machine("lm3s6965evb", "fieldling-dp", trace=("pl011_write",)) as machine:
+        machine.process.terminate()
+        machine.process.wait()
+        with open(machine.events) as file:
+            formats = re.findall(r"pl011_write addr 0x0*2c value 0x0*([0-9a-f]+)", file.read())
+    # UARTLCRH: 40H 7 bits, 60H 8 bits, 06H even parity. The console's is set first
+    expect("formats", (formats[0], set(formats[1:])), ("60", {"66"}))
+
+
 def test_lm3s6965evb_driver_pin_is_on_for_the_answer_only():
     with Machine("lm3s6965evb", "fieldling-dp", trace=("pl061_set_output",)) as machine:
         with RawMaster(machine.pty) as master:

@@ -179,5 +179,15 @@ def test_com86_line_is_8e1_and_7e1_for_ascii():
     expect("ASCII", formats[-1], ("19200", "E", "7", "1"))
 
 
+def test_lm3s6965evb_line_is_8e1_and_7e1_for_ascii():
+    with Machine("lm3s6965evb", "fieldling-modbus", trace=("pl011_write",)) as machine:
+        machine.ask("ascii")
+        machine.process.terminate()
+        machine.process.wait()
+        with open(machine.events) as file:
+            formats = re.findall(r"pl011_write addr 0x0*2c value 0x0*([0-9a-f]+)", file.read())
+    expect("UARTLCRH of console, RTU, ASCII", formats, ["60", "66", "46"])
+
+
 if __name__ == "__main__":
     sys.exit(run_tests([value for name, value in list(globals().items()) if name.startswith("test_")]))
