@@ -13,6 +13,7 @@ for c in $2 $3; do
 done
 shift 3
 python3 firmware/hal/mcs51/strip_unused.py $(for f in $sources; do echo "$f.asm"; done) >"$image.stripped"
+python3 firmware/hal/mcs51/drop_stores.py $(for f in $sources $defaults; do echo "$f.asm"; done)
 for f in $sources $defaults; do
     sdas8051 -plosgff "$f.rel" "$f.asm"
 done
