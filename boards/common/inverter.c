@@ -13,13 +13,17 @@ uint16_t XDATA inv_trips[1 + INV_TRIPS_KEPT];
 uint16_t XDATA inv_trend[INV_TREND_KEPT];
 uint16_t XDATA inv_note[INV_NOTE_RECORDS];
 
-#define STEP_MS      10u
+#ifndef INV_STEP_MS /* 10, 20, 50 or 100 */
+#define INV_STEP_MS 10
+#endif
+#define STEP_MS      ((unsigned)INV_STEP_MS)
 #define AMBIENT      250u /* 0.1 degC */
 #define TRIP_HEAT    950u
 #define TRIP_CURRENT 200u /* % of RATED_CURRENT */
 
 static uint16_t XDATA last_tick;
 static uint16_t XDATA ramp_rest; /* of the division in ramp()                     */
+static uint16_t XDATA percent;   /* of RATED_CURRENT                              */
 static uint32_t XDATA heat;      /* TEMPERATURE * 256                             */
 static uint32_t XDATA work;      /* energy below 0.1 Wh, in W * STEP_MS           */
 static uint16_t XDATA run_ms, unasked_ms, trend_ms;
@@ -98,28 +102,28 @@ static int8_t move_frequency(void)
     return -1;
 }
 
-static uint32_t max_u32(uint32_t a, uint32_t b)
-{
-    return a > b ? a : b;
-}
-
 /* Voltage follows frequency up to BASE_FREQ; the current is magnetising 30 % or load, and half as much again
  * while accelerating; a fast ramp down feeds the DC bus, which trips at twice RATED_VOLTAGE. */
 static void electrics(int8_t moving)
 {
-    const uint32_t f = inv_values[INV_V_OUTPUT_FREQ];
-    const uint32_t full = 10u * (uint32_t)inv_params[INV_P_RATED_VOLTAGE];
-    const uint32_t volt = full * f / inv_params[INV_P_BASE_FREQ];
-    uint32_t percent = f ? max_u32(30, inv_params[INV_P_LOAD]) : 0;
-    uint32_t bus = full * 1414u / 1000u;
+    const uint16_t f = inv_values[INV_V_OUTPUT_FREQ];
+    const uint16_t full = (uint16_t)(10u * inv_params[INV_P_RATED_VOLTAGE]);
+    uint16_t volt = f ? full : 0;
+    uint16_t bus = (uint16_t)((uint32_t)full * 1448u >> 10); /* 1.414 */
+    percent = 0;
+    if (f) {
+        percent = inv_params[INV_P_LOAD] > 30u ? inv_params[INV_P_LOAD] : 30u;
+        if (f < inv_params[INV_P_BASE_FREQ])
+            volt = (uint16_t)((uint32_t)full * f / inv_params[INV_P_BASE_FREQ]);
+    }
     if (moving > 0)
-        percent += percent / 2u;
-    inv_values[INV_V_OUTPUT_VOLTAGE] = (uint16_t)(volt > full ? full : volt);
-    inv_values[INV_V_OUTPUT_CURRENT] = (uint16_t)(percent * inv_params[INV_P_RATED_CURRENT] / 100u);
-    bus -= bus * percent / 5000u; /* 2 % down at 100 % */
+        percent = (uint16_t)(percent + percent / 2u);
+    inv_values[INV_V_OUTPUT_VOLTAGE] = volt;
+    inv_values[INV_V_OUTPUT_CURRENT] = (uint16_t)((uint32_t)percent * inv_params[INV_P_RATED_CURRENT] / 100u);
+    bus = (uint16_t)(bus - ((uint32_t)bus * percent * 13u >> 16)); /* 2 % down at 100 % */
     if (moving < 0)
-        bus += 10u * (uint32_t)inv_params[INV_P_LOAD] * 20u / inv_params[INV_P_DECEL_TIME];
-    inv_values[INV_V_DC_BUS] = (uint16_t)(bus > 65535u ? 65535u : bus);
+        bus = (uint16_t)(bus + 200u * inv_params[INV_P_LOAD] / inv_params[INV_P_DECEL_TIME]); /* below 9760 + 50000 */
+    inv_values[INV_V_DC_BUS] = bus;
     set_input(INV_IN_OVERLOADED, percent > 100u);
     if (percent > TRIP_CURRENT)
         inv_trip(INV_OVERCURRENT);
@@ -127,16 +131,15 @@ static void electrics(int8_t moving)
         inv_trip(INV_OVERVOLTAGE);
 }
 
-/* First order towards ambient + 0.4 K per % of current squared over 100; time constant 256 * 64 steps. */
+/* First order towards ambient + 0.4 K per % of current squared over 100 (4 * 256 / 100 is 41 / 4); time constant
+ * 164 s. */
 static void warm(void)
 {
-    const uint32_t percent =
-        100u * (uint32_t)inv_values[INV_V_OUTPUT_CURRENT] / inv_params[INV_P_RATED_CURRENT];
-    const uint32_t end = (AMBIENT + 4u * percent * percent / 100u) * 256u;
+    const uint32_t end = AMBIENT * (uint32_t)256 + ((uint32_t)percent * percent * 41u >> 2);
     if (heat < end)
-        heat += (end - heat) / 16384u + 1u;
+        heat += ((end - heat) >> 14) * (STEP_MS / 10u) + 1u;
     else if (heat > end)
-        heat -= (heat - end) / 16384u + 1u;
+        heat -= ((heat - end) >> 14) * (STEP_MS / 10u) + 1u;
     inv_values[INV_V_TEMPERATURE] = (uint16_t)(heat / 256u);
     if (inv_values[INV_V_TEMPERATURE] > TRIP_HEAT)
         inv_trip(INV_OVERTEMPERATURE);
@@ -149,11 +152,11 @@ static void count(uint8_t register_high)
         inv_values[register_high]++;
 }
 
-/* Power = 1.73 U I; 0.1 Wh are 360 000 W ms. */
+/* Power = 1.73 U I, of 0.1 V and 0.01 A (1.73 / 1000 is 1814 / 2^20); 0.1 Wh are 360 000 W ms. */
 static void account(void)
 {
     const uint32_t watts =
-        (uint32_t)inv_values[INV_V_OUTPUT_VOLTAGE] * inv_values[INV_V_OUTPUT_CURRENT] / 1000u * 173u / 100u;
+        ((uint32_t)inv_values[INV_V_OUTPUT_VOLTAGE] * inv_values[INV_V_OUTPUT_CURRENT] >> 10) * 1814u >> 10;
     for (work += watts * STEP_MS; work >= 360000u; work -= 360000u) /* 20 times at most */
         count(INV_V_ENERGY_HIGH);
     if (inv_values[INV_V_OUTPUT_FREQ] && (run_ms = (uint16_t)(run_ms + STEP_MS)) >= 1000u) {

@@ -79,7 +79,7 @@ struct mb_span {
     uint16_t qty;  /* items, at least 1     */
     uint8_t XDATA *octets;
 };
-extern struct mb_span XDATA mb_span;
+extern struct mb_span HOT mb_span;
 
 /* Value i of mb_span, 0 <= i < mb_span.qty; a bit is 0 or 1. */
 uint16_t mb_span_get(uint16_t i);

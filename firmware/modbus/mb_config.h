@@ -18,7 +18,7 @@
  *                      application never sees half a value and never leaves one. Default: interrupts masked
  *                      (hal.h). Where the tables are used in main only: 0 and (void)(state)
  *
- * The table of the CRC is chosen for the whole image: -DCRC16_ENTRIES=16 or 256, crc16.h.
+ * The table of the CRC is chosen for the whole image: -DCRC16_ENTRIES=16, 256 or 512, crc16.h.
  */
 #ifndef FIELDLING_MB_CONFIG_H
 #define FIELDLING_MB_CONFIG_H

@@ -7,13 +7,13 @@
 #include "modbus/mb.h"
 #include "hal/hal.h"
 
-struct mb_span XDATA mb_span;
+struct mb_span HOT mb_span;
 
 /* Where mb_check() found the range: it is items offset..offset+mb_span.qty-1 of block. */
 static struct {
     const struct mb_block CODE *block;
     uint16_t offset;
-} found;
+} HOT found;
 
 static bool find(void)
 {

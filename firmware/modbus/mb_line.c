@@ -71,7 +71,7 @@ static uint16_t append_crc(void)
     uint_fast8_t left = (uint_fast8_t)(mb_pdu_len + 1u);
     mb_rx.crc = CRC16_START;
     do
-        mb_rx.crc = crc16_add(mb_rx.crc, *at++);
+        crc16_take(&mb_rx.crc, *at++);
     while (--left);
     at[0] = (uint8_t)mb_rx.crc;
     at[1] = (uint8_t)(mb_rx.crc >> 8);
@@ -145,7 +145,7 @@ void line_octet_isr(uint8_t octet, uint8_t err) IN_ISR
     }
     if (mb_rx.state == MB_RECEPTION && mb_rx.n < MB_RTU_MAX) {
         mb_adu[mb_rx.n++] = octet;
-        mb_rx.crc = crc16_add(mb_rx.crc, octet);
+        crc16_take(&mb_rx.crc, octet);
     } else {
         err |= MB_FLAW;
     }

@@ -154,8 +154,8 @@ class Chip:
         self.take_log(self.command(f"step {instructions}"))
 
     def take_log(self, text):
-        kinds = {81: "RI", 82: "TX", 83: "DE"}
-        for code, ticks in re.findall(r"^(8[123]000[01])\n(\d+)$", text, re.M):
+        kinds = {81: "RI", 82: "TX", 83: "DE", 84: "T0", 85: "ISR"}
+        for code, ticks in re.findall(r"^(8[1-5]000[01])\n(\d+)$", text, re.M):
             self.log.append((kinds[int(code) // 10000], int(code) % 10, int(ticks) / CLOCKS))
 
     def times(self):
