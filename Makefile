@@ -18,6 +18,7 @@
 #     host_tests/x.py_TIMEOUT [s]       run with the gcc programs and again with the sanitized ones
 #   SCRIPT_TESTS_ONCE += host_tests/x.sh  the same for a script that runs no host program of ours: once
 #   QUICK_TESTS  += host_tests/x.py     like _ONCE, and fast: run by `make check` too
+#   LONG_TESTS   += host_tests/x.py     like _ONCE, for hours: run by `make test-long` alone
 #   BOARD_IMAGES += build/87c51fb/x.ihx   built by `make test`; the fragment has the rule
 #   STATIC       += a-target            run by `make check`
 #   BENCHES      += bench-x             a target, run by `make bench`, one after the other
@@ -126,7 +127,7 @@ ASAN_TESTS     := $(addprefix build/asan/,$(UNIT_TESTS))
 CLANG_OBJECTS  := $(sort $(foreach p,$(PROGRAMS),$(call objects,clang,$p,$($p_SRC) $($p_DEFAULTS))) \
                          $(foreach t,$(UNIT_TESTS),$(call objects,clang,$t,$(call test_sources,$t) $($t_DEFAULTS))))
 
-.PHONY: all setup run flash test check asan bench size clean help build-tests build-asan check-clang boards static \
+.PHONY: all setup run flash test test-long check asan bench size clean help build-tests build-asan check-clang boards static \
         $(BENCHES) $(SIZES) $(STATIC)
 
 all: $(POSIX_PROGRAMS)
@@ -161,6 +162,10 @@ test: setup
 	@TEST_FULL=1 $(RUN_PY) $(call timed,$(UNIT_TESTS),build/test/) $(call timed,$(UNIT_TESTS),build/asan/) \
 	    $(call timed,$(QUICK_TESTS) $(SCRIPT_TESTS_ONCE)) $(call timed,$(SCRIPT_TESTS)) --asan $(call timed,$(SCRIPT_TESTS))
 
+test-long: setup
+	@$(MAKE) --no-print-directory $J all boards
+	@TEST_FULL=1 $(RUN_PY) $(call timed,$(LONG_TESTS))
+
 check:
 	@test -d build/unity && test -x $(PYTHON) || sh host_tests/setup.sh
 	@$(MAKE) --no-print-directory $J build-tests check-clang static
@@ -190,6 +195,7 @@ help:
 	@echo "make check               unit tests, 8051 and Cortex-M compile, static checks: about a minute"
 	@echo "make asan                the unit tests again, by clang with AddressSanitizer and UBSan"
 	@echo "make test                everything: all boards, sanitizers, foreign masters; ends in N passed, N failed"
+	@echo "make test-long           what takes too long for that: the 8051 at every rate, every bit, every moment"
 	@echo "make bench               measured figures on this machine"
 	@echo "make size                code and RAM of programs and images"
 	@echo "make clean               remove build/"

@@ -5,6 +5,8 @@ host_tests/s51_contract.py_TIMEOUT := 300
 host_tests/s51_dp.py_TIMEOUT      := 300
 host_tests/s51_masters.py_TIMEOUT := 300
 host_tests/s51_states.py_TIMEOUT  := 300
+LONG_TESTS += host_tests/s51_long.py
+host_tests/s51_long.py_TIMEOUT := 21600
 
 # The DP image for a 24 MHz crystal, which has 19.2 kbit/s.
 87c51fb/fieldling-dp-24mhz_SRC      = $(87c51fb/fieldling-dp_SRC)

@@ -39,9 +39,9 @@ class Board(s51.Chip):
 
     # ---- what is said to the simulator ----
 
-    def do(self, *lines):
+    def do(self, *lines, seconds=PATIENCE):
         """All of it, then look at the clock."""
-        text = self.command("\n".join([*lines, "expr /d 860000", "expr /d sim_ticks"]), PATIENCE)
+        text = self.command("\n".join([*lines, "expr /d 860000", "expr /d sim_ticks"]), seconds)
         self.take_log(text)
         self.now = int(re.findall(r"^860000\n(\d+)$", text, re.M)[-1]) // s51.CLOCKS
 
@@ -95,7 +95,7 @@ class Board(s51.Chip):
         return "since=sim_ticks", *self.until(label, f"1 if sim_ticks-since>={int(cycles * s51.CLOCKS)}")
 
     def ms(self, n):
-        self.do(*self.until_later(n * self.cycles_per_ms))
+        self.do(*self.until_later(n * self.cycles_per_ms), seconds=PATIENCE + n // 20)
 
     def turns(self, n=TURNS):
         self.do(*self.until(LOOP, str(n)))
