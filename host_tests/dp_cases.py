@@ -7,8 +7,8 @@ virtual time. FCS is the sum of DA..DU modulo 256.
 Each case begins at power-up with address switches 8 and inputs 1E 00. A step is the name of a bench's method and its
 arguments: ask (request, answer; "" is silence), out (the outputs now), inputs (from now; the station has seen them),
 ms (so many milliseconds pass), power (off and on with these switches), new_battery (the non-volatile cells are lost).
-Marks in a telegram: `02!` wrong parity, `_33` a pause of 33 T_bit; a bench without bit times cannot play those:
-needs_a_line().
+Marks in a telegram: `02!` wrong parity, `_33` a pause of 33 T_bit; a bench whose time is the computer's cannot play
+those: needs_own_time().
 """
 import re
 
@@ -83,9 +83,9 @@ def case(name, *steps):
     CASES.append((name, flat))
 
 
-def needs_a_line(steps):
-    """Does a case play with parity or bit times?"""
-    return any(step[0] == "ask" and re.search("[!_]", step[1]) for step in steps)
+def needs_own_time(steps):
+    """Does a case play with parity, bit times or milliseconds?"""
+    return any(step[0] == "ms" or step[0] == "ask" and re.search("[!_]", step[1]) for step in steps)
 
 
 # ---- who is meant, what is a telegram: part 4, 4.7 -----------------------------------------------------------------

@@ -3,7 +3,8 @@
 UNIT_TESTS += test_hal_realtime
 test_hal_realtime_SRC = $(HAL_REALTIME)
 
-SCRIPT_TESTS += host_tests/station_cli.py host_tests/station_console.py host_tests/station_line.py host_tests/demo.py
+SCRIPT_TESTS += host_tests/station_cli.py host_tests/station_console.py host_tests/station_line.py host_tests/demo.py \
+                host_tests/host_states.py
 
 # How near the station comes to a loop that only reads and writes.
 PROGRAMS += bench-pty
