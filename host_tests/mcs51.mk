@@ -14,6 +14,20 @@ host_tests/s51_long.py_TIMEOUT := 21600
 87c51fb/fieldling-dp-24mhz_CFLAGS  := -UFOSC_HZ -DFOSC_HZ=24000000ul
 $(eval $(call mcs51_image,87c51fb,fieldling-dp-24mhz))
 
+# The Modbus image for an 11.0592 MHz crystal, which has every rate, 19200 among them.
+87c51fb/fieldling-modbus-11059_SRC      = $(87c51fb/fieldling-modbus_SRC)
+87c51fb/fieldling-modbus-11059_DEFAULTS = $(87c51fb/fieldling-modbus_DEFAULTS)
+87c51fb/fieldling-modbus-11059_CFLAGS   = $(MCS51_MODBUS_CFLAGS) -UFOSC_HZ -DFOSC_HZ=11059200ul
+$(eval $(call mcs51_image,87c51fb,fieldling-modbus-11059))
+
+SCRIPT_TESTS_ONCE += host_tests/s51_modbus.py host_tests/s51_libmodbus.py
+host_tests/s51_modbus.py_TIMEOUT    := 300
+host_tests/s51_libmodbus.py_TIMEOUT := 300
+BENCHES += bench-s51-modbus
+bench-s51-modbus: build/87c51fb/fieldling-modbus.ihx build/87c51fb/fieldling-modbus-11059.ihx
+	@echo "The Modbus inverter on a 12 and an 11.0592 MHz 87C51FB, simulated machine cycles:"
+	@$(PYTHON) host_tests/s51_modbus.py | grep -v Tests
+
 BENCHES += bench-s51
 bench-s51: build/87c51fb/fieldling-dp.ihx
 	@echo "DP-TEST01 on a 12 MHz 87C51FB, simulated machine cycles:"

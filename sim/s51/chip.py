@@ -5,7 +5,7 @@ and what happens is written down by the simulator itself, at the instruction whe
 
 What s51 0.6.4 does not model is supplied or corrected here:
   ninth bit   RB8 of a received octet is set by a script at the moment RI is written: even parity, or wrong on purpose;
-              TB8 of a sent octet is noted when SBUF is written
+              TB8 of a sent octet is noted when SBUF is written; odd=1 at the console turns the parity of received octets round
   input       is looked at every million instructions unless uart0_check_often is set
   RI, TI      come at the end of the character; on the real part RI comes half a bit and TI one bit earlier
 """
@@ -77,8 +77,8 @@ class Chip:
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, bufsize=0)
         self.count, self.breaks, self.text, self.log = 0, 0, b"", []
         self.command("uart0_check_often=1")
-        self.command("var heard\nvar spoil\nvar every\nheard=0\nspoil=0\nevery=0xffffffff")
-        self.watch(f"bits w 0x{RI_BIT:x}", f"heard=heard+RI;RB8=({PARITY})^((heard==spoil)|((heard%every)==0));"
+        self.command("var odd\nvar heard\nvar spoil\nvar every\nodd=0\nheard=0\nspoil=0\nevery=0xffffffff")
+        self.watch(f"bits w 0x{RI_BIT:x}", f"heard=heard+RI;RB8=({PARITY})^odd^((heard==spoil)|((heard%every)==0));"
                    "expr /d 810000+RI;expr /d sim_ticks")
         self.watch(f"sfr w 0x{SBUF:x}", "expr /d 820000+TB8;expr /d sim_ticks")
         self.command(f"set mem sfr 0x90 0x{~switches & 0x7f | 0x80:x}")
@@ -154,8 +154,8 @@ class Chip:
         self.take_log(self.command(f"step {instructions}"))
 
     def take_log(self, text):
-        kinds = {81: "RI", 82: "TX", 83: "DE", 84: "T0", 85: "ISR"}
-        for code, ticks in re.findall(r"^(8[1-5]000[01])\n(\d+)$", text, re.M):
+        kinds = {81: "RI", 82: "TX", 83: "DE", 84: "T0"}
+        for code, ticks in re.findall(r"^(8[1-4]000[01])\n(\d+)$", text, re.M):
             self.log.append((kinds[int(code) // 10000], int(code) % 10, int(ticks) / CLOCKS))
 
     def times(self):

@@ -39,6 +39,11 @@ void serial_isr(void) __interrupt(4) __using(2) __naked
         mov _TH0,_reload_high
         clr _TF0
         setb _ET0
+        cjne r3,#0,00006$       ; changes C: before the parity
+        setb _lost
+        sjmp 00007$
+    00006$:
+        dec r3
         mov c,_P                ; error if parity is not even
         jnb _odd,00002$
         cpl c
@@ -53,11 +58,6 @@ void serial_isr(void) __interrupt(4) __using(2) __naked
         jb _parity,00005$
         clr c
     00005$:
-        cjne r3,#0,00006$
-        setb _lost
-        sjmp 00007$
-    00006$:
-        dec r3
         movx @r0,a
         inc r0
         clr a
