@@ -15,11 +15,12 @@
 /* The rest of bank 2: page of `in` (R1), A (R2), how many octets may come (R3), their sum (R4). */
 static volatile HOT uint8_t __at(0x16) bad_at; /* R6: bad: a bad octet came before what was kept from here on */
 
-static volatile __bit hear;  /* not deaf        */
 static volatile __bit store; /* the third state */
 static volatile __bit full;  /* the chunk is complete, and that has not been told */
 static volatile __bit bad;
-static volatile __bit stay; /* in a telegram of a burst */
+static volatile __bit first; /* in store, and the next octet calls the service */
+static volatile __bit begun; /* that is why it has been called, and nothing else was */
+static volatile __bit rest;  /* nothing more to tell */
 static HOT uint8_t err;     /* HAL_ERR_* of the bad octet */
 static HOT uint8_t stop;
 
@@ -77,10 +78,12 @@ void serial_isr(void) __interrupt(4) __using(2) __naked
         mov _err,#1             ; HAL_ERR_PARITY
         sjmp 00007$
     00006$:
+        jbc _first,00010$
         mov _err,#4             ; HAL_ERR_OVERRUN: no room for the next one
     00007$:
         lcall _keep_isr
         clr _hear
+        clr _begun
         mov _bad_at,r0
         setb _bad
         setb _IE1
@@ -95,6 +98,11 @@ void serial_isr(void) __interrupt(4) __using(2) __naked
         reti
     00009$:
         ljmp _send_next_isr
+    00010$:
+        mov r3,#(KEPT - 1)
+        setb _begun
+        setb _IE1
+        sjmp 00004$
     __endasm;
 }
 
@@ -122,6 +130,7 @@ void mark_isr(void) __naked
 {
     __asm
         lcall _keep_isr
+        clr _begun
         mov _mark,r0
         setb _hear
         ret
@@ -145,24 +154,26 @@ void silent_isr(void) IN_ISR __naked
     __endasm;
 }
 
-/* Back from the third state, unless something has come meanwhile. While an answer waits, an octet is a chunk of its
- * own: it is told, and cancels the answer. */
+/* At rest, unless something has come meanwhile: deaf, in a chunk, or still in store, when the first octet calls the
+ * service: it cancels the answer that waits, or begins a burst. */
 static void open_isr(void) IN_ISR __naked
 {
     __asm
         clr _EA
         mov a,_taken
-        cjne a,_in,00003$
-        jb _full,00003$
-        jb _due,00003$
-        jb _bad,00003$
-        clr _store
-        clr _hear
+        cjne a,_in,00004$
+        jb _full,00004$
+        jb _due,00004$
+        jb _bad,00004$
+        setb _rest
         mov _taken,#_kept
         mov a,(_phy_rx + 4)     ; waiting
         jnz 00001$
+        clr _store
+        clr _hear
         mov a,(_phy_rx + 2)
-        jz 00003$
+        jz 00004$
+        jb _burst,00001$
         mov _in,_phy_rx
         mov (_in + 1),(_phy_rx + 1)
         mov (_in + 3),a
@@ -172,9 +183,11 @@ static void open_isr(void) IN_ISR __naked
         mov _in,#_kept
         mov (_in + 1),#0
         mov (_in + 3),#1
+        setb _first
+        setb _store
     00002$:
         setb _hear
-    00003$:
+    00004$:
         setb _EA
         ret
     __endasm;
@@ -187,11 +200,7 @@ static void tell_isr(void) IN_ISR
 
     if (full) {
         full = 0;
-        stay = burst;
-        if (phy_rx.waiting)
-            line_octet_isr(0, 0);
-        else
-            phy_chunk_ind_isr();
+        phy_chunk_ind_isr();
     }
     stop = in;
     if (due)
@@ -207,7 +216,6 @@ static void tell_isr(void) IN_ISR
         line_octet_isr(0, err);
     } else if (due) {
         due = 0;
-        stay = 0;
         if (phy_rx.waiting && in != stop)
             line_octet_isr(0, 0); /* somebody else was faster */
         if (reload_low | reload_high)
@@ -219,48 +227,54 @@ void serve_isr(void) IN_ISR
 {
     do {
         IE1 = 0;
+        rest = 0;
+        while (store && !sending) {
+            tell_isr();
+            if (sending)
+                break;
+            open_isr();
+            if (rest)
+                break;
+        }
         if (sending)
             sent_isr();
-        while (store) {
-            tell_isr();
-            open_isr();
-        }
     } while (IE1);
 }
 
 /* The usual case without C: a chunk is complete; its upcall asks for the next one; what has been kept meanwhile is
- * poured into it, which may complete it; or the octets to come go there directly. */
+ * poured into it, which may complete it; the octets to come go there directly. In a burst they are waited for here, 22
+ * cycles each. */
 void service_isr(void) __interrupt(2) __using(1) __naked
 {
     __asm
+        clr _ES                 ; of a burst's first octet to the second one's ninth bit: 48 cycles
         push acc
         push b
         push dpl
         push dph
         push psw
         mov psw,#0x08
-    00001$:
-        jnb _full,00007$
-        mov a,(_phy_rx + 4)     ; waiting
-        jnz 00007$
+        jbc _begun,00017$
+        jnb _full,00016$
+        setb _ES
         clr _full
-    00002$:
+    00001$:
         lcall _phy_chunk_ind_isr
-        mov c,_burst
-        mov _stay,c
         mov a,(_phy_rx + 2)
-        jz 00006$               ; deaf, or an answer waits
+        jz 00011$               ; deaf, or an answer waits
         mov r7,a
         mov dpl,_phy_rx
         mov dph,(_phy_rx + 1)
         mov r6,(_phy_rx + 3)
         mov r0,_taken
-    00003$:
+    00002$:
+        jb _IE1,00010$          ; a silence or a bad octet: not past it
         mov a,r0
-        cjne a,_in,00004$
+        cjne a,_in,00003$
+        jb _burst,00004$
         clr _EA
-        cjne a,_in,00004$
-        jb _IE1,00004$
+        cjne a,_in,00015$
+        jb _IE1,00015$
         mov _in,dpl
         mov (_in + 1),dph
         mov (_in + 3),r7
@@ -268,47 +282,100 @@ void service_isr(void) __interrupt(2) __using(1) __naked
         mov _taken,#_kept
         clr _store
         setb _EA
-        jb _stay,00008$
-        sjmp 00009$
-    00004$:
+        sjmp 00013$
+    00015$:
         setb _EA
-        jb _IE1,00005$          ; a silence or a bad octet: not past it
+        sjmp 00002$
+    00003$:                     ; what has been kept
         movx a,@r0
         inc r0
         movx @dptr,a
         inc dptr
         add a,r6
         mov r6,a
-        djnz r7,00003$
-    00005$:
+        djnz r7,00002$
+    00010$:
+        setb _ES
         mov _phy_rx,dpl
         mov (_phy_rx + 1),dph
         mov (_phy_rx + 2),r7
         mov (_phy_rx + 3),r6
         mov _taken,r0
-        cjne r7,#0,00007$
-        sjmp 00002$
-    00006$:
-        jnb _due,00007$         ; the answer has not to wait any more
+        cjne r7,#0,00012$
+        sjmp 00001$
+    00011$:
+        jnb _due,00012$         ; the answer has not to wait any more
         mov a,_taken
-        cjne a,_in,00007$
+        cjne a,_in,00012$
         clr _due
         lcall _line_silence_isr
-    00007$:
+        sjmp 00012$
+    00016$:
+        jb _sending,00012$
+        setb _ES
+    00012$:
         lcall _serve_isr
-        jnb _stay,00009$
-        jnb _hear,00009$
-    00008$:
-        jnb _IE1,00008$         ; in a burst: until there is more to do
-        clr _IE1
-        sjmp 00001$
-    00009$:
+    00013$:
         pop psw
         pop dph
         pop dpl
         pop b
         pop acc
         reti
+    00017$:                     ; the first octet after rest: of a burst, unless an answer waits
+        mov a,(_phy_rx + 2)
+        jz 00016$
+        mov r7,a
+        mov dpl,_phy_rx
+        mov dph,(_phy_rx + 1)
+        mov r6,(_phy_rx + 3)
+        mov r0,_taken
+        movx a,@r0
+        inc r0
+        movx @dptr,a
+        inc dptr
+        add a,r6
+        mov r6,a
+        mov a,r0
+        djnz r7,00018$
+        sjmp 00010$
+    00004$:                     ; straight from the receiver
+        clr _ES
+    00018$:
+        cjne a,_in,00009$
+    00005$:
+        jb _RI,00006$
+        jnb _IE1,00005$
+        sjmp 00009$
+    00006$:
+        mov a,_SBUF
+        jb _P,00007$
+        jnb _RB8,00008$
+        sjmp 00014$
+    00007$:
+        jnb _RB8,00014$
+    00008$:
+        clr _RI
+        mov _TL0,_reload_low
+        mov _TH0,_reload_high
+        clr _TF0
+        movx @dptr,a
+        inc dptr
+        add a,r6
+        mov r6,a
+        djnz r7,00005$
+        sjmp 00010$
+    00009$:
+        setb _ES
+        ljmp 00002$
+    00014$:
+        clr _RI
+        mov _err,#1             ; HAL_ERR_PARITY
+        mov _bad_at,_in
+        clr _hear
+        setb _bad
+        setb _IE1
+        sjmp 00009$
     __endasm;
 }
 
@@ -320,7 +387,8 @@ void receive_off_isr(void) IN_ISR __naked
         clr _full
         clr _bad
         clr _due
-        clr _stay
+        clr _first
+        clr _begun
         mov _taken,#_kept
         ret
     __endasm;

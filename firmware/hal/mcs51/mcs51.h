@@ -32,6 +32,7 @@ void serial_isr(void) __interrupt(4) __using(2) __naked;        /* high */
 
 /* ---- serial.c ---- */
 extern volatile __bit sending;
+extern volatile __bit hear;   /* chunk.c: not deaf */
 extern volatile __bit burst;  /* octets are so short that the service stays for the whole telegram */
 void send_next_isr(void) __naked; /* high: where serial_isr() goes when no octet has been received  */
 void sent_isr(void) IN_ISR;       /* the service while sending: all that are left, line_sent_isr()  */

@@ -146,9 +146,9 @@ void service_isr(void) __interrupt(2) __using(1)
 {
     do {
         IE1 = 0;
+        serve_isr();
         if (sending)
             sent_isr();
-        serve_isr();
     } while (IE1);
 }
 

@@ -19,10 +19,12 @@
 
 volatile __bit sending;
 volatile __bit burst;
+volatile __bit hear;
 
 static volatile __bit polled;
 static const uint8_t XDATA *HOT tx_at;
-static const uint8_t XDATA *HOT tx_end;
+static HOT uint8_t tx_low;  /* octets left, with the one on the line: low octet, and high one that counts */
+static HOT uint8_t tx_high; /* the begun 256 as a whole: both are counted down by djnz                    */
 static HOT uint8_t stop_bit_low; /* Timer 0 a bit time before its overflow */
 static HOT uint8_t stop_bit_high;
 static uint16_t bit_cycles; /* a bit lasts bit_cycles + bit_thirds / 3 machine cycles */
@@ -39,6 +41,8 @@ void hal_send(const uint8_t XDATA *octets, uint16_t n) IN_ISR __naked
         clr _TR0
         clr _TF0
         clr _TI
+        clr _hear
+        clr _due
         setb _sending
     __endasm;
     DRIVER_ON();
@@ -49,28 +53,22 @@ void hal_send(const uint8_t XDATA *octets, uint16_t n) IN_ISR __naked
         inc dptr
         mov _tx_at,dpl
         mov (_tx_at + 1),dph
-        mov r6,dpl
-        mov r7,dph
         mov dptr,#_hal_send_PARM_2
-        movx a,@dptr            ; end = at - 1 + n
-        add a,r6
-        mov r6,a
+        movx a,@dptr
+        mov _tx_low,a
+        jz 00001$
+        mov a,#1
+    00001$:
+        mov _tx_high,a
         inc dptr
         movx a,@dptr
-        addc a,r7
-        mov r7,a
-        mov a,r6
-        jnz 00001$
-        dec r7
-    00001$:
-        dec r6
-        mov _tx_end,r6
-        mov (_tx_end + 1),r7
+        add a,_tx_high
+        mov _tx_high,a
         jnb _polled,00002$
         clr _ES
         setb _IE1
     00002$:
-        ljmp _receive_off_isr
+        ret
     __endasm;
 }
 
@@ -85,18 +83,16 @@ void send_next_isr(void) __naked
         push acc
         push dpl
         push dph
-        mov dpl,_tx_at
-        mov dph,(_tx_at + 1)
-        mov a,dpl
-        cjne a,_tx_end,00001$
-        mov a,dph
-        cjne a,(_tx_end + 1),00001$
+        djnz _tx_low,00001$
+        djnz _tx_high,00001$
         mov _TL0,_stop_bit_low
         mov _TH0,_stop_bit_high
         setb _ET0
         setb _TR0
         sjmp 00002$
     00001$:
+        mov dpl,_tx_at
+        mov dph,(_tx_at + 1)
         movx a,@dptr
         lcall _ninth_isr
         mov _SBUF,a
@@ -129,10 +125,8 @@ static void send_polled_isr(void) IN_ISR __naked
         mov _SBUF,a
         clr _TI
     00003$:
-        mov a,dpl
-        cjne a,_tx_end,00001$
-        mov a,dph
-        cjne a,(_tx_end + 1),00001$
+        djnz _tx_low,00001$
+        djnz _tx_high,00001$
     00004$:
         jnb _TI,00004$
         clr _TI
@@ -152,7 +146,7 @@ void sent_isr(void) IN_ISR
         return;
     DRIVER_OFF();
     sending = 0;
-    due = 0;
+    receive_off_isr();
     RI = 0;
     REN = 1;
     silence_restart_isr();
