@@ -40,12 +40,26 @@ def symbols(image):
     return found
 
 
+def arrivals(octets):
+    """Times at which RI was set. One that the simulator has not seen was some 12 cycles before it was cleared again."""
+    found, waiting = [], False
+    for kind, value, t in octets:
+        if kind == "RI" and value == 1:
+            found.append(t)
+        elif kind == "RI" and not waiting:
+            found.append(t - 12)
+        elif kind == "TX":
+            break
+        waiting = kind == "RI" and value == 1
+    return found
+
+
 class Exchange:
     """What happened between a request and the silence after it; times in machine cycles."""
 
     def __init__(self, octets, answer):
         self.answer = answer
-        self.arrived = [t for kind, value, t in octets if kind == "RI" and value == 1]
+        self.arrived = arrivals(octets)
         self.fetched = [t for kind, value, t in octets if kind == "RI" and value == 0]
         self.written = [t for kind, _, t in octets if kind == "TX"]
         self.parity = [value for kind, value, _ in octets if kind == "TX"]
@@ -80,6 +94,8 @@ class Chip:
         self.command("var odd\nvar heard\nvar spoil\nvar every\nodd=0\nheard=0\nspoil=0\nevery=0xffffffff")
         self.watch(f"bits w 0x{RI_BIT:x}", f"heard=heard+RI;RB8=({PARITY})^odd^((heard==spoil)|((heard%every)==0));"
                    "expr /d 810000+RI;expr /d sim_ticks")
+        # what is written while an interrupt is being entered goes unseen: the ninth bit is supplied again where SBUF is read
+        self.watch(f"sfr r 0x{SBUF:x}", f"RB8=({PARITY})^((heard==spoil)|((heard%every)==0))")
         self.watch(f"sfr w 0x{SBUF:x}", "expr /d 820000+TB8;expr /d sim_ticks")
         self.command(f"set mem sfr 0x90 0x{~switches & 0x7f | 0x80:x}")
 

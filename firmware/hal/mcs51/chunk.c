@@ -38,17 +38,17 @@ void serial_isr(void) __interrupt(4) __using(2) __naked
         mov psw,#0x10
         mov r2,a
         mov a,_SBUF
-        clr _RI
-        mov _TL0,_reload_low
-        mov _TH0,_reload_high
-        clr _TF0
-        setb _ET0
         jb _P,00001$
         jnb _RB8,00002$
         sjmp 00005$
     00001$:
         jnb _RB8,00005$
     00002$:
+        clr _RI
+        mov _TL0,_reload_low
+        mov _TH0,_reload_high
+        clr _TF0
+        setb _ET0
         mov _P2,r1
         movx @r0,a
         mov _P2,#0
@@ -75,6 +75,11 @@ void serial_isr(void) __interrupt(4) __using(2) __naked
         pop psw
         reti
     00005$:
+        clr _RI
+        mov _TL0,_reload_low
+        mov _TH0,_reload_high
+        clr _TF0
+        setb _ET0
         mov _err,#1             ; HAL_ERR_PARITY
         sjmp 00007$
     00006$:
@@ -247,14 +252,14 @@ void serve_isr(void) IN_ISR
 void service_isr(void) __interrupt(2) __using(1) __naked
 {
     __asm
-        clr _ES                 ; of a burst's first octet to the second one's ninth bit: 48 cycles
+        clr _ES                 ; of a burst's first octet to the second one's ninth bit: 47 cycles
         push acc
         push b
         push dpl
         push dph
         push psw
         mov psw,#0x08
-        jbc _begun,00017$
+        jbc _begun,00022$
         jnb _full,00016$
         setb _ES
         clr _full
@@ -262,6 +267,7 @@ void service_isr(void) __interrupt(2) __using(1) __naked
         lcall _phy_chunk_ind_isr
         mov a,(_phy_rx + 2)
         jz 00011$               ; deaf, or an answer waits
+    00018$:
         mov r7,a
         mov dpl,_phy_rx
         mov dph,(_phy_rx + 1)
@@ -322,26 +328,10 @@ void service_isr(void) __interrupt(2) __using(1) __naked
         pop b
         pop acc
         reti
-    00017$:                     ; the first octet after rest: of a burst, unless an answer waits
-        mov a,(_phy_rx + 2)
-        jz 00016$
-        mov r7,a
-        mov dpl,_phy_rx
-        mov dph,(_phy_rx + 1)
-        mov r6,(_phy_rx + 3)
-        mov r0,_taken
-        movx a,@r0
-        inc r0
-        movx @dptr,a
-        inc dptr
-        add a,r6
-        mov r6,a
-        mov a,r0
-        djnz r7,00018$
-        sjmp 00010$
+    00022$:
+        ljmp 00017$
     00004$:                     ; straight from the receiver
         clr _ES
-    00018$:
         cjne a,_in,00009$
     00005$:
         jb _RI,00006$
@@ -364,7 +354,7 @@ void service_isr(void) __interrupt(2) __using(1) __naked
         add a,r6
         mov r6,a
         djnz r7,00005$
-        sjmp 00010$
+        ljmp 00010$
     00009$:
         setb _ES
         ljmp 00002$
@@ -376,6 +366,30 @@ void service_isr(void) __interrupt(2) __using(1) __naked
         setb _bad
         setb _IE1
         sjmp 00009$
+    00017$:                     ; the first octet after rest: of a burst, unless an answer waits
+        mov a,(_phy_rx + 2)
+        jz 00023$
+        mov r7,a
+        mov r0,_taken
+        mov a,r0
+        inc a
+        cjne a,_in,00020$       ; and more already
+        mov dpl,_phy_rx
+        mov dph,(_phy_rx + 1)
+        movx a,@r0
+        inc r0
+        movx @dptr,a
+        inc dptr
+        add a,(_phy_rx + 3)
+        mov r6,a
+        djnz r7,00005$
+        ljmp 00010$
+    00020$:
+        setb _ES
+        mov a,r7
+        ljmp 00018$
+    00023$:
+        ljmp 00016$
     __endasm;
 }
 

@@ -55,14 +55,27 @@ void hal_silence(hal_dur_t d) IN_ISR __naked
 {
     d;
     __asm
-        jb _sending,00004$
+        mov a,dpl               ; reload = - d, its low octet never so near to its overflow that Timer 0 would
+        dec a                   ; carry into the high one while both are being set
+        add a,#0xFD
+        jc 00001$
+        mov dpl,#4
+    00001$:
+        clr c
+        clr a
+        subb a,dpl
+        mov r4,a
+        clr a
+        subb a,dph
+        mov r5,a
+        jb _sending,00006$
         clr _TR0
-        clr _ES
-        jnb _due,00007$
+        clr _ES                 ; not for longer than 40 cycles
+        jnb _due,00002$
         mov a,_mark
-        cjne a,_in,00007$
+        cjne a,_in,00002$
         clr _due                ; with the limit as it was
-    00007$:
+    00002$:
         clr c                   ; elapsed = Timer 0 - reload
         mov a,_TL0
         subb a,_reload_low
@@ -70,44 +83,33 @@ void hal_silence(hal_dur_t d) IN_ISR __naked
         mov a,_TH0
         subb a,_reload_high
         mov r7,a
-        jb _ET0,00002$
-        jnc 00001$
-        jnb _TF0,00002$
-    00001$:
+        jb _ET0,00004$
+        jnc 00003$
+        jnb _TF0,00004$
+    00003$:
         mov r6,#0xFF            ; reported and overflowed again: too long to count
         mov r7,#0xFF
-    00002$:
-        clr c                   ; Timer 0 = elapsed - d
-        mov a,r6
-        subb a,dpl
+    00004$:
+        mov a,r6                ; Timer 0 = elapsed + reload
+        add a,r4
         mov _TL0,a
         mov a,r7
-        subb a,dph
+        addc a,r5
         mov _TH0,a
+        mov _reload_low,r4
+        mov _reload_high,r5
         clr _TF0
         setb _ET0
-        jc 00003$
-        jb _RI,00003$           ; silent for d already, unless the receiver knows better
+        jnc 00005$
+        jb _RI,00005$           ; silent for d already, unless the receiver knows better
         lcall _silent_isr
-    00003$:
-        setb _TR0
-    00004$:
-        mov a,dpl               ; reload = - d, its low octet never so near to its overflow that Timer 0 would
-        dec a                   ; carry into the high one while both are being set
-        add a,#0xFD
-        jc 00005$
-        mov dpl,#4
     00005$:
-        clr c
-        clr a
-        subb a,dpl
-        mov _reload_low,a
-        clr a
-        subb a,dph
-        mov _reload_high,a
-        jb _sending,00006$
+        setb _TR0
         setb _ES
+        ret
     00006$:
+        mov _reload_low,r4
+        mov _reload_high,r5
         ret
     __endasm;
 }
