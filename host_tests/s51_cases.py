@@ -8,7 +8,7 @@ import random
 
 from dp_cases import (CHK_CFG, DX, DX_OK, GET_DIAG, SET_PRM_WD, STATUS, STATUS_OK, STILL_ANSWERS, TO_DATA_EXCH,
                       TO_DATA_EXCH_WD, WAITS_PRM)
-from chip import SBUF
+from chip import DRIVER, SBUF
 from station import expect
 
 CASES, LONG = [], []
@@ -199,14 +199,27 @@ def starts_in_a_telegram(bench):
         bench.step(STILL_ANSWERS)
 
 
+@case("the driver is never on between power-up and the first answer")
+def driver_is_off_until_it_answers(bench):
+    board = bench.board
+    board.do("reset")
+    expect("driver in reset", board.value(DRIVER), 0)
+    watch = board.watch_driver()
+    board.power(8)
+    expect("driver since power-up", {on for kind, on, _ in board.log if kind == "DE"}, {0})
+    bench.ask(STATUS, STATUS_OK)
+    expect("driver for the answer", [on for kind, on, _ in board.log if kind == "DE"], [1, 0])
+    board.do(f"delete {watch}")
+
+
 @case("T86 power fails in the middle of an answer: the driver is off, and the next telegram is answered")
 def stops_in_an_answer(bench):
     board = bench.board
     os.write(board.input, bytes.fromhex(GET_DIAG))
     board.do(*board.until_event(f"sfr w 0x{SBUF:x} 5"))
-    expect("driver in an answer", board.value("(P3>>2)&1"), 1)
+    expect("driver in an answer", board.value(DRIVER), 1)
     board.power(8)
-    expect("driver after power-up", board.value("(P3>>2)&1"), 0)
+    expect("driver after power-up", board.value(DRIVER), 0)
     os.read(board.output, 64)
     bench.steps(TO_DATA_EXCH)
 

@@ -9,11 +9,12 @@
 #define FOSC_HZ 12000000ul
 #endif
 
-/* P3.2 driver enable of the transceiver, P3.5 watchdog input of the supervisor: an edge kicks. */
+/* P3.2 -|>o- driver enable of the transceiver: a port is high during reset, and the driver off. P3.5 watchdog input of the
+ * supervisor: an edge kicks. */
 #define DRIVER_ENABLE P3_2
 #define WATCHDOG      P3_5
-#define DRIVER_ON()  (DRIVER_ENABLE = 1)
-#define DRIVER_OFF() (DRIVER_ENABLE = 0)
+#define DRIVER_ON()  (DRIVER_ENABLE = 0)
+#define DRIVER_OFF() (DRIVER_ENABLE = 1)
 #define WDOG_KICK()  (WATCHDOG = !WATCHDOG)
 
 /* P1.0..P1.6 address switches: closed = 1 */

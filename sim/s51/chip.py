@@ -20,6 +20,7 @@ import time
 CLOCKS = 12  # a machine cycle
 PARITY = ("^".join(f"(uart0_received_char>>{n})" for n in range(8))).join(("(", ")&1"))
 RI_BIT, P3_2_BIT, SBUF = 0x98, 0xB2, 0x99
+DRIVER = "(((P3>>2)&1)^1)"  # is it on? A port is high in reset: an inverter makes that the driver off
 # struct fdl_counters, 16 bits each: firmware/fdl/fdl.h
 FDL_COUNTERS = ("sd_count sd_error_count parity overrun gap format checksum foreign requests retries answers cancelled "
                 "refused").split()
@@ -136,6 +137,11 @@ class Chip:
     def watch(self, event, script):
         self.command(f"commands {self.break_at(event)} {script};go")
 
+    def watch_driver(self):
+        """Not while step() is used. -> number of the breakpoint"""
+        self.watch(f"bits w 0x{P3_2_BIT:x}", f"expr /d 830000+{DRIVER};expr /d sim_ticks")
+        return self.breaks
+
     def break_at(self, event):
         """-> the breakpoint's number: they are counted, and not always told."""
         self.breaks += 1
@@ -195,7 +201,7 @@ class Chip:
         else:
             raise Stuck(f"no rate with N = {n}")
         self.run_to("phy_syn_ind_isr")
-        self.watch(f"bits w 0x{P3_2_BIT:x}", "expr /d 830000+((P3>>2)&1);expr /d sim_ticks")
+        self.watch_driver()
 
     def ask(self, request, idle=40):
         """Send request idle instructions from now, run until T_SYN of silence after it and its answer."""

@@ -28,7 +28,7 @@ class ModbusChip(_Modbus, Chip):
         self.line = line
         self.wait_for_rate(rate_n)
         self.watch("0x0b", "expr /d 840000;expr /d sim_ticks")  # the vector of Timer 0
-        self.watch("bits w 0xb2", "expr /d 830000+((P3>>2)&1);expr /d sim_ticks")
+        self.watch_driver()
 
     def ask(self, request, passes=1):
         """Send request, passes of the main loop from now; run until its answer has left. -> Exchange"""
