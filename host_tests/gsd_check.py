@@ -224,6 +224,7 @@ def test_pyprofibus_reads_parameters_and_configuration():
 # divisor. From the chips' data sheets: 8052 Timer 2 (32), 16550 (16), STM32F1 USART (BRR 16 at least), PL011 (16, in 1/64).
 CLOCKS = {
     "87c51fb": ("wiring.h", "FOSC_HZ", 32, 1),
+    "stc89c58rd": ("wiring.h", "FOSC_HZ", 32, 1),
     "com86": ("hal_board.h", "BOARD_UART_HZ", 16, 1),
     "bluepill": ("hal_board.h", "BOARD_LINE_CLOCK_HZ", 1, 16),
     "lm3s6965evb": ("hal_board.h", "BOARD_CORE_HZ", 16 / 64, 64),

@@ -5,7 +5,10 @@ host_tests/s51_contract.py_TIMEOUT := 300
 host_tests/s51_dp.py_TIMEOUT      := 300
 host_tests/s51_masters.py_TIMEOUT := 300
 host_tests/s51_states.py_TIMEOUT  := 300
-LONG_TESTS += host_tests/s51_long.py
+SCRIPT_TESTS_ONCE += host_tests/s51_stc89.py
+host_tests/s51_stc89.py_TIMEOUT := 300
+LONG_TESTS += host_tests/s51_long.py host_tests/s51_stc89_long.py
+host_tests/s51_stc89_long.py_TIMEOUT := 3600
 host_tests/s51_long.py_TIMEOUT := 21600
 
 # The DP image for a 24 MHz crystal, which has 19.2 kbit/s.

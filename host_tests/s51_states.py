@@ -21,7 +21,7 @@ import dp_cases  # noqa: E402
 import s51_cases  # noqa: E402
 from station import expect  # noqa: E402
 
-Line = namedtuple("Line", "rate n mhz image")  # n: Timer 2's divisor
+Line = namedtuple("Line", "rate n mhz image board", defaults=(Board,))  # n: Timer 2's divisor
 LINES = [Line(9600, 39, 12, "fieldling-dp"), Line(93750, 4, 12, "fieldling-dp")]
 ADDRESS, INPUTS = 8, "1E 00"
 RETRIES = 3
@@ -83,7 +83,7 @@ def work(line, cases, results):
             break
         bench, wrong = None, ""
         try:
-            board = board or Board(str(ROOT / f"build/87c51fb/{line.image}.ihx"), line.n, line.mhz)
+            board = board or line.board(str(ROOT / f"build/{line.board.FOLDER}/{line.image}.ihx"), line.n, line.mhz)
             bench = Bench(board)
             play(bench)
         except AssertionError as error:

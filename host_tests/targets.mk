@@ -75,7 +75,7 @@ run-board-%: build/posix/fieldling-master
 	@python3 host_tests/run_board.py $*
 
 flash-which-board:
-	@echo "make flash BOARD=bluepill" >&2; exit 1
+	@echo "make flash BOARD=bluepill, 87c51fb or stc89c58rd" >&2; exit 1
 
 SCRIPT_TESTS_ONCE += host_tests/flash.py
 

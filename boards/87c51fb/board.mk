@@ -16,3 +16,10 @@ $(eval $(call mcs51_image,87c51fb,fieldling-dp))
 87c51fb/fieldling-modbus_DEFAULTS := $(MODBUS_DEFAULTS)
 87c51fb/fieldling-modbus_CFLAGS   := $(MCS51_MODBUS_CFLAGS)
 $(eval $(call mcs51_image,87c51fb,fieldling-modbus))
+
+# make flash BOARD=87c51fb DEVICE=AT89C55WD IMAGE=fieldling-modbus: an 8052 with 20 kB of flash in the 87C51FB's socket
+.PHONY: flash-87c51fb
+IMAGE  ?= fieldling-dp
+DEVICE ?= AT89C55WD
+flash-87c51fb: build/87c51fb/$(IMAGE).bin
+	@sh boards/87c51fb/flash.sh $< $(DEVICE)

@@ -72,7 +72,9 @@ enum { INV_VALUES(INV_NAME_VALUE) INV_V_COUNT };
 #define INV_TRIP_FIFO    0x0100u
 #define INV_TRIPS_KEPT   8u
 #define INV_FILE_TREND   1u
+#ifndef INV_TREND_KEPT /* a part with little RAM keeps fewer */
 #define INV_TREND_KEPT   64u
+#endif
 #define INV_FILE_NOTE    2u
 #define INV_NOTE_RECORDS 16u
 

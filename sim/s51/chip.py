@@ -156,10 +156,10 @@ class Chip:
     def cycles(self):
         return self.value("sim_ticks") // CLOCKS
 
-    def run_to(self, label, seconds=60):
-        """Run until the function label is entered; what happened meanwhile is in self.log."""
+    def run_to(self, label, seconds=60, times=1):
+        """Run until the function label is entered, for the times-th time; what happened meanwhile is in self.log."""
         address = self.symbols[label]
-        number = self.break_at(f"0x{address:x}")
+        number = self.break_at(f"0x{address:x} {times}")
         self.take_log(self.command("run", seconds))
         self.command(f"delete {number}")
 

@@ -25,6 +25,8 @@ PATIENCE = 60            # seconds of the host's time for what is done at once
 
 
 class Board(s51.Chip):
+    FOLDER = "87c51fb"  # of its images, below build/
+
     def __init__(self, image, n, mhz=12, inputs="1E 00"):
         super().__init__(image, mhz=mhz)
         self.n = n

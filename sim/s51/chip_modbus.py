@@ -23,8 +23,8 @@ class _Modbus:
 
 
 class ModbusChip(_Modbus, Chip):
-    def __init__(self, image, rate_n, line=0):
-        super().__init__(image, switches=1)
+    def __init__(self, image, rate_n, line=0, mhz=12):
+        super().__init__(image, mhz=mhz, switches=1)
         self.line = line
         self.wait_for_rate(rate_n)
         self.watch("0x0b", "expr /d 840000;expr /d sim_ticks")  # the vector of Timer 0
