@@ -21,20 +21,19 @@ endef
 
 # ---- the DP stack ----------------------------------------------------------------------------------------------------
 
-FDL_UNIT_TESTS  := $(addprefix test_fdl_,services retry sap small) test_fma
+FDL_UNIT_TESTS  := $(addprefix test_fdl_,services retry sap small tx early) test_fma
 DDLM_UNIT_TESTS := $(addprefix test_ddlm_,prm cfg diag data addr wd states no_inputs no_outputs plain adapt)
-DP_UNIT_TESTS   := test_bytes test_phy_uart test_fdl_rx test_fdl_tx test_ddlm_identifiers $(FDL_UNIT_TESTS) \
+DP_UNIT_TESTS   := test_bytes test_phy_uart test_fdl_rx test_ddlm_identifiers $(FDL_UNIT_TESTS) \
     $(DDLM_UNIT_TESTS)
 UNIT_TESTS += $(DP_UNIT_TESTS)
 
 UNIT_PHY  := host_tests/fake_hal.c firmware/phy_uart/phy_uart.c
-UNIT_FDL  := $(UNIT_PHY) $(addprefix firmware/fdl/,fdl.c fdl_rx.c fdl_tx.c fdl_sap.c fma.c fma_watch.c)
+UNIT_FDL  := $(UNIT_PHY) $(addprefix firmware/fdl/,fdl.c fdl_plan.c fdl_rx.c fdl_tx.c fdl_sap.c fma.c fma_watch.c)
 UNIT_DDLM := $(UNIT_FDL) host_tests/ddlm_unit.c \
     $(addprefix firmware/ddlm/ddlm,.c _addr.c _cfg.c _data.c _diag.c _identifiers.c _prm.c _wd.c)
 
 test_phy_uart_SRC := $(UNIT_PHY)
 test_fdl_rx_SRC   := $(UNIT_PHY) firmware/fdl/fdl_rx.c
-test_fdl_tx_SRC   := host_tests/fake_hal.c firmware/fdl/fdl_tx.c firmware/fdl/fdl_sap.c
 test_ddlm_identifiers_SRC := host_tests/fake_hal.c firmware/ddlm/ddlm_identifiers.c
 $(foreach t,$(FDL_UNIT_TESTS),$(eval $(t)_SRC := $(UNIT_FDL) host_tests/fdl_unit.c)\
     $(eval $(t)_DEFAULTS := firmware/fdl/fma_event_default.c))

@@ -19,13 +19,18 @@ void fdl_data_ind(const struct fdl_ind XDATA *what)
         ind.lsdu[i] = what->lsdu[i];
 }
 
-uint8_t fdl_ind_isr(void) IN_ISR
+uint8_t fdl_ask_isr(void) IN_ISR
+{
+    isr.asked++;
+    return isr.result;
+}
+
+void fdl_ind_isr(void) IN_ISR
 {
     isr.count++;
     isr.lsdu = fdl_req.lsdu;
     if (isr.keep)
         isr.kept = fdl_keep_isr(isr.kept);
-    return isr.result;
 }
 
 void unit_begin(void)
@@ -34,6 +39,7 @@ void unit_begin(void)
     fma_reset(8);
     fma_set_value(FMA_BAUD_RATE, 1);
     ind.count = 0;
+    isr.asked = 0;
     isr.count = 0;
     isr.result = FDL_OK;
     isr.keep = false;

@@ -13,8 +13,9 @@ struct unit_ind {
 };
 extern struct unit_ind XDATA ind;
 
-/* Requests that came through fdl_ind_isr(), and what it answers. */
+/* What came through fdl_ask_isr(), and what it answers; requests that came through fdl_ind_isr(). */
 struct unit_isr {
+    uint8_t asked;
     uint8_t count;
     uint8_t result;
     bool keep;           /* keeps each L_sdu */

@@ -175,6 +175,26 @@ static void inputs_before_data_exchange_are_not_taken(void)
     ANSWERED(INPUTS);
 }
 
+/* Executed when its answer is out: by then the owner may be gone (promise 4). */
+static void outputs_answered_but_not_yet_executed_do_not_outlive_the_owner(void)
+{
+    fake_silence();
+    hear("68 05 05 68 08 02 6D A1 A2 BA 16");
+    fake_silence();
+    ddlm_slave_init(8, 1);
+    fake_sent();
+    OUTPUTS(DDLM_OUT_SAFE, "00 00");
+    OUTPUTS(DDLM_OUT_SAME, "00 00");
+    setUp();
+    fake_silence();
+    hear("68 05 05 68 08 02 6D A1 A2 BA 16");
+    fake_silence();
+    fma_sap_deactivate(FDL_SAP_NIL); /* what leaving data exchange begins with */
+    fake_sent();
+    OUTPUTS(DDLM_OUT_SAME, "00 00");
+    COUNTED(0, data_exchange);
+}
+
 /* ---- RD_Inp, RD_Outp ---- */
 
 static void any_master_may_read_the_inputs(void)
@@ -551,6 +571,7 @@ int main(void)
     RUN_TEST(no_output_octets_at_all_mean_the_fail_safe_state);
     RUN_TEST(outputs_and_fail_safe_before_the_application_looked_the_later_counts);
     RUN_TEST(inputs_before_data_exchange_are_not_taken);
+    RUN_TEST(outputs_answered_but_not_yet_executed_do_not_outlive_the_owner);
     RUN_TEST(any_master_may_read_the_inputs);
     RUN_TEST(any_master_may_read_the_outputs_the_application_has);
     RUN_TEST(reading_with_data_is_refused_rr);

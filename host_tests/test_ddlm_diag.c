@@ -222,6 +222,34 @@ static void a_slave_diag_that_is_refused_is_not_read(void)
     ANSWERED(HIGH);
 }
 
+static void a_diagnosis_raised_while_the_one_before_is_being_sent_is_still_to_be_read(void)
+{
+    to_data_exch();
+    diag("02 01", DDLM_EXT_DIAG);
+    fake_silence();
+    hear(READ);
+    diag("02 02", DDLM_EXT_DIAG); /* the answer has been decided */
+    finish_request();
+    request(EXCHANGE);
+    ANSWERED(HIGH);
+    request(READ);
+    request(EXCHANGE);
+    ANSWERED(LOW);
+}
+
+static void a_diagnosis_raised_while_data_exchange_comes_in_answers_high_at_once(void)
+{
+    to_data_exch();
+    request(EXCHANGE);
+    ANSWERED(LOW);
+    fake_silence();
+    hear("68 05 05 68 08 02 6D");
+    diag("02 01", DDLM_EXT_DIAG);
+    hear("A1 A2 BA 16");
+    finish_request();
+    ANSWERED(HIGH);
+}
+
 static void malformed_blocks_raise_no_flag(void)
 {
     to_data_exch();
@@ -283,6 +311,8 @@ int main(void)
     RUN_TEST(another_master_looks_without_taking_the_news_away);
     RUN_TEST(static_diagnosis_keeps_the_flag_until_it_is_cleared);
     RUN_TEST(a_slave_diag_that_is_refused_is_not_read);
+    RUN_TEST(a_diagnosis_raised_while_the_one_before_is_being_sent_is_still_to_be_read);
+    RUN_TEST(a_diagnosis_raised_while_data_exchange_comes_in_answers_high_at_once);
     RUN_TEST(malformed_blocks_raise_no_flag);
     RUN_TEST(diagnosis_told_before_data_exchange_is_known_once_it_starts);
     RUN_TEST(no_news_are_lost_between_interrupt_and_main);

@@ -20,7 +20,9 @@ static void send_to_itself(void)
 {
     uint8_t irq = hal_irq_save();
 
-    phy_answer_isr(to_itself, sizeof to_itself);
+    phy_tx.at = to_itself;
+    phy_tx.len = sizeof to_itself;
+    phy_answer_isr();
     hal_irq_restore(irq);
     hv_run_for(50 * HV_MS);
     fdl_read_counters(&after);

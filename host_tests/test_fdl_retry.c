@@ -214,7 +214,7 @@ static void a_retry_whose_answer_was_given_up_meanwhile_gets_a_whole_newer_one(v
     fdl_reply_release_isr(&reply_nil);
     unit_update(FDL_SAP_NIL, "33", FDL_UPDATE_LOW);
     unit_update(FDL_SAP_NIL, "44", FDL_UPDATE_LOW);
-    reply_nil.hold = true;
+    reply_nil.is |= FDL_HOLD;
     request("68 04 04 68 08 02 7D 01 88 16");
     ANSWERED(ANSWER_22);
     request("68 04 04 68 08 02 7D 01 88 16");

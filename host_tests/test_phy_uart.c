@@ -4,7 +4,7 @@
 #include "phy_uart/phy_uart.h"
 
 static struct {
-    uint8_t chunks, syns, faults, cancelled, events;
+    uint8_t chunks, syns, faults, sent, cancelled, events;
     uint8_t err, variable, value;
 } seen;
 static uint8_t XDATA room[8];
@@ -14,7 +14,7 @@ static bool again; /* another telegram may follow at once */
 void phy_chunk_ind_isr(void) IN_ISR
 {
     seen.chunks++;
-    again = phy_telegram_end_isr();
+    again = phy_rx.untimed;
 }
 
 void phy_syn_ind_isr(void) IN_ISR
@@ -31,9 +31,12 @@ void phy_fault_ind_isr(uint8_t err) IN_ISR
     seen.err = err;
 }
 
-void phy_cancelled_ind_isr(void) IN_ISR
+void phy_done_ind_isr(bool sent) IN_ISR
 {
-    seen.cancelled++;
+    if (sent)
+        seen.sent++;
+    else
+        seen.cancelled++;
 }
 
 void phy_event_ind(uint8_t variable, uint8_t value)
@@ -48,6 +51,7 @@ static void forget(void)
     seen.chunks = 0;
     seen.syns = 0;
     seen.faults = 0;
+    seen.sent = 0;
     seen.cancelled = 0;
     seen.events = 0;
 }
@@ -71,7 +75,9 @@ static void answer(void)
     frame[0] = 0xE5;
     frame[1] = 0x5E;
     fake.isr++;
-    phy_answer_isr(frame, 2);
+    phy_tx.at = frame;
+    phy_tx.len = 2;
+    phy_answer_isr();
     fake.isr--;
 }
 

@@ -6,7 +6,7 @@
 #include "hal/hal.h"
 #include "phy_uart/phy_uart.h"
 
-struct ddlm XDATA ddlm;
+IDATA struct ddlm ddlm;
 struct ddlm_counters XDATA ddlm_counters;
 
 static uint16_t last_tick;

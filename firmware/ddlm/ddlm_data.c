@@ -35,10 +35,10 @@ static uint8_t XDATA rd_outp_rooms[3][FDL_ROOM(DEV_OUTPUT_MAX)];
 
 static struct outputs XDATA newest;
 static struct outputs XDATA held;
-static volatile bool safe;    /* the application must go to the fail-safe state */
-static volatile bool sync_on;
-static volatile bool refused; /* a wrong length was seen: no more data exchange until the main loop has left it */
-static volatile uint8_t notes;
+static IDATA volatile uint8_t safe;    /* the application must go to the fail-safe state */
+static IDATA volatile uint8_t sync_on;
+static HOT volatile uint8_t refused; /* a wrong length was seen: no more data exchange until the main loop has left it */
+static IDATA volatile uint8_t notes;
 
 /* ---- interrupt ------------------------------------------------------------------------------------------- */
 
@@ -56,24 +56,32 @@ static void clear_isr(void) IN_ISR
     safe = true;
 }
 
-static uint8_t wrong_length_isr(void) IN_ISR
+static void wrong_length_isr(void) IN_ISR
 {
-    ddlm_counters.wrong_length++;
+    fdl_count_isr(&ddlm_counters.wrong_length);
     notes |= NOTE_WRONG_LENGTH;
     refused = DDLM_WRONG_LENGTH_LEAVES;
-    return FDL_RS;
 }
 
 /* A master in Clear sends zeros, or, to a slave that offers Fail_Safe, no outputs at all. */
-static uint8_t data_exchange_isr(void) IN_ISR
+static bool length_is_wrong_isr(void) IN_ISR
+{
+    if (DEV_FAIL_SAFE && fdl_req.len == 0)
+        return false;
+    return fdl_req.len != ddlm.output_len;
+}
+
+static void data_exchange_isr(void) IN_ISR
 {
     if (refused)
-        return FDL_RS;
+        return;
+    if (length_is_wrong_isr()) {
+        wrong_length_isr();
+        return;
+    }
     if (fdl_req.len != ddlm.output_len) {
-        if (!DEV_FAIL_SAFE || fdl_req.len != 0)
-            return wrong_length_isr();
         clear_isr();
-    } else if (ddlm.output_len) {
+    } else if (fdl_req.len) {
         if (sync_on) {
             keep_outputs_isr(&held);
         } else {
@@ -81,8 +89,7 @@ static uint8_t data_exchange_isr(void) IN_ISR
             safe = false;
         }
     }
-    ddlm_counters.data_exchange++;
-    return FDL_OK;
+    fdl_count_isr(&ddlm_counters.data_exchange);
 }
 
 /* What Sync mode held back goes to the application. */
@@ -118,14 +125,14 @@ static void sync_command_isr(uint8_t command) IN_ISR
 static void freeze_command_isr(uint8_t command) IN_ISR
 {
     if (command & UNFREEZE) {
-        ddlm_input_reply.hold = false;
+        ddlm_input_reply.is &= (uint8_t)~FDL_HOLD;
     } else if (command & FREEZE) {
         if (!ddlm.freeze_enabled) {
             notes |= NOTE_NOT_SUPPORTED;
             return;
         }
         fdl_reply_release_isr(&ddlm_input_reply);
-        ddlm_input_reply.hold = true;
+        ddlm_input_reply.is |= FDL_HOLD;
     }
 }
 
@@ -138,7 +145,7 @@ static void global_control_isr(void) IN_ISR
     if (fdl_req.len != 2 || (fdl_req.lsdu[1] != 0 && !(fdl_req.lsdu[1] & ddlm.groups)))
         return;
     command = fdl_req.lsdu[0];
-    ddlm_counters.global_control++;
+    fdl_count_isr(&ddlm_counters.global_control);
     if (command & CLEAR)
         clear_isr();
     sync_command_isr(command);
@@ -147,20 +154,25 @@ static void global_control_isr(void) IN_ISR
         notes |= NOTE_MODE;
 }
 
-uint8_t fdl_ind_isr(void) IN_ISR
+uint8_t fdl_ask_isr(void) IN_ISR
 {
-    switch (fdl_req.dsap) {
-    case FDL_SAP_NIL:
-        return data_exchange_isr();
-    case SAP_GLOBAL_CONTROL:
-        global_control_isr();
-        return FDL_OK;
-    case SAP_SLAVE_DIAG:
-        ddlm_diag_read_isr();
-        return FDL_OK;
-    default:
+    if (fdl_req.dsap == FDL_SAP_NIL)
+        return refused || length_is_wrong_isr() ? FDL_RS : FDL_OK;
+    if (fdl_req.dsap == SAP_SLAVE_DIAG)
+        ddlm_diag_ask_isr();
+    else if (fdl_req.dsap != SAP_GLOBAL_CONTROL)
         return FDL_RS;
-    }
+    return FDL_OK;
+}
+
+void fdl_ind_isr(void) IN_ISR
+{
+    if (fdl_req.dsap == FDL_SAP_NIL)
+        data_exchange_isr();
+    else if (fdl_req.dsap == SAP_SLAVE_DIAG)
+        ddlm_diag_read_isr();
+    else if (fdl_req.dsap == SAP_GLOBAL_CONTROL)
+        global_control_isr();
 }
 
 /* ---- main loop ------------------------------------------------------------------------------------------- */
@@ -184,14 +196,14 @@ void ddlm_data_safe(void)
     sync_on = false;
     refused = false;
     notes = 0;
-    ddlm_input_reply.hold = false;
+    ddlm_input_reply.is &= (uint8_t)~FDL_HOLD;
     hal_irq_restore(irq);
 }
 
 /* A station without inputs has nothing to wait for: its (empty) inputs are ready. */
 void ddlm_data_start(void)
 {
-    ddlm_input_reply.valid = false;
+    fdl_reply_empty(&ddlm_input_reply);
     if (ddlm.input_len == 0)
         ddlm_inputs(0);
 }
@@ -209,14 +221,16 @@ void ddlm_inputs(const uint8_t XDATA *inputs)
     ddlm_diag_update();
 }
 
-static uint8_t XDATA *take_newest(uint8_t XDATA *XDATA *lsdu)
+static uint8_t XDATA *IDATA taken; /* L_sdu of the buffer */
+
+static uint8_t XDATA *take_newest(void)
 {
     uint8_t irq = hal_irq_save();
     uint8_t XDATA *buffer = 0;
 
     if (newest.filled) {
         buffer = newest.buffer;
-        *lsdu = newest.lsdu;
+        taken = newest.lsdu;
         newest.buffer = 0;
         newest.filled = false;
     }
@@ -236,7 +250,6 @@ static bool take_safe(void)
 
 uint8_t ddlm_outputs(uint8_t XDATA *outputs)
 {
-    static uint8_t XDATA *XDATA lsdu;
     uint8_t XDATA *buffer;
     uint8_t out = DDLM_OUT_NEW;
     uint8_t i;
@@ -246,23 +259,15 @@ uint8_t ddlm_outputs(uint8_t XDATA *outputs)
             outputs[i] = 0;
         out = DDLM_OUT_SAFE;
     } else {
-        buffer = take_newest(&lsdu);
+        buffer = take_newest();
         if (!buffer)
             return DDLM_OUT_SAME;
         for (i = 0; i < ddlm.output_len; i++)
-            outputs[i] = lsdu[i];
+            outputs[i] = *taken++;
         fdl_give_back(buffer);
     }
     fdl_reply_write(&ddlm_rd_outp_reply, outputs, ddlm.output_len, FDL_UPDATE_LOW); /* RD_Outp_Upd */
     return out;
-}
-
-void ddlm_diag_flag(bool pending)
-{
-    uint8_t irq = hal_irq_save();
-
-    ddlm_input_reply.high = pending;
-    hal_irq_restore(irq);
 }
 
 bool ddlm_sync_mode(void)
@@ -272,7 +277,7 @@ bool ddlm_sync_mode(void)
 
 bool ddlm_freeze_mode(void)
 {
-    return ddlm_input_reply.hold;
+    return (ddlm_input_reply.is & FDL_HOLD) != 0;
 }
 
 void ddlm_data_poll(void)

@@ -6,6 +6,7 @@
  */
 #include "bytes.h"
 #include "ddlm/ddlm_priv.h"
+#include "hal/hal.h"
 
 #define FIXED_LEN 6u
 #define MAX_LEN   (FIXED_LEN + DEV_EXT_DIAG_MAX)
@@ -22,6 +23,7 @@ static uint8_t XDATA pending_rooms[3][FDL_ROOM(FIXED_LEN)];
 
 static uint8_t len;
 static uint8_t flags; /* DDLM_EXT_DIAG, DDLM_STAT_DIAG */
+static volatile bool news; /* there has been a new diagnosis since a master began to ask for it */
 
 void ddlm_diag_init(void)
 {
@@ -73,13 +75,28 @@ void ddlm_diag_update(void)
     fdl_reply_write(&ddlm_diag_reply, diag, len, FDL_UPDATE_LOW);
 }
 
+void ddlm_diag_ask_isr(void) IN_ISR
+{
+    news = false;
+    if (fdl_waiting_isr(SAP_SET_PRM) || fdl_waiting_isr(SAP_CHK_CFG))
+        fdl_req.reply = &pending_reply;
+}
+
 /* The owner has the news; anybody else may look without taking them away. */
 void ddlm_diag_read_isr(void) IN_ISR
 {
-    if (fdl_waiting_isr(SAP_SET_PRM) || fdl_waiting_isr(SAP_CHK_CFG))
-        fdl_req.reply = &pending_reply;
-    else if (fdl_req.sa == ddlm.master && !(flags & DDLM_STAT_DIAG))
-        ddlm_input_reply.high = false;
+    if (fdl_req.reply == &ddlm_diag_reply && fdl_req.sa == ddlm.master && !news && !(flags & DDLM_STAT_DIAG))
+        fdl_reply_priority_isr(&ddlm_input_reply, FDL_UPDATE_LOW);
+}
+
+/* Diag_Flag: Data_Exchange is answered DH. */
+static void raise_flag(void)
+{
+    uint8_t irq = hal_irq_save();
+
+    news = true;
+    fdl_reply_priority_isr(&ddlm_input_reply, FDL_UPDATE_HIGH);
+    hal_irq_restore(irq);
 }
 
 /* Length of the block at ext[0], 0 where there is none that fits in n octets. */
@@ -130,6 +147,6 @@ bool ddlm_diag(const uint8_t XDATA *ext, uint8_t n, uint8_t how)
     diag[2] = fit < n ? DIAG3_OVERFLOW : 0;
     flags = how;
     ddlm_diag_update();
-    ddlm_diag_flag(true);
+    raise_flag();
     return true;
 }

@@ -7,11 +7,12 @@
 #define SPECIAL_OUT   0x80u
 #define NO_MANUFACTURER_OCTETS 15u
 
-static uint16_t octets(uint8_t coded, uint8_t length_mask)
+/* 1..128 */
+static uint8_t octets(uint8_t coded, uint8_t length_mask)
 {
-    uint16_t n = (uint16_t)((coded & length_mask) + 1u);
+    uint8_t n = (uint8_t)((coded & length_mask) + 1u);
 
-    return (coded & WORDS) ? (uint16_t)(n << 1) : n;
+    return (coded & WORDS) ? (uint8_t)(n << 1) : n;
 }
 
 static uint8_t special_length(uint8_t id)
@@ -27,30 +28,42 @@ static uint8_t special_length(uint8_t id)
     return n;
 }
 
+/* Where it is: in internal RAM, which halves the code. */
+static const uint8_t XDATA *HOT at;
+static IDATA uint16_t input;
+static IDATA uint16_t output;
+
 bool ddlm_cfg_lengths(const uint8_t XDATA *cfg, uint8_t len, struct ddlm_cfg_lengths XDATA *to)
 {
     uint8_t id;
+    uint8_t n;
 
-    to->input = 0;
-    to->output = 0;
+    at = cfg;
+    input = 0;
+    output = 0;
     while (len) {
-        id = *cfg++;
+        id = *at++;
         len--;
         if (id & (IS_INPUT | IS_OUTPUT)) {
+            n = octets(id, 0x0F);
             if (id & IS_INPUT)
-                to->input = (uint16_t)(to->input + octets(id, 0x0F));
+                input = (uint16_t)(input + n);
             if (id & IS_OUTPUT)
-                to->output = (uint16_t)(to->output + octets(id, 0x0F));
+                output = (uint16_t)(output + n);
             continue;
         }
-        if (special_length(id) > len)
+        n = special_length(id);
+        if (n > len)
             return false;
+        len = (uint8_t)(len - n);
+        cfg = at;
+        at += n;
         if (id & SPECIAL_OUT)
-            to->output = (uint16_t)(to->output + octets(cfg[0], 0x3F));
+            output = (uint16_t)(output + octets(*cfg++, 0x3F));
         if (id & SPECIAL_IN)
-            to->input = (uint16_t)(to->input + octets(cfg[(id & SPECIAL_OUT) ? 1 : 0], 0x3F));
-        cfg += special_length(id);
-        len = (uint8_t)(len - special_length(id));
+            input = (uint16_t)(input + octets(*cfg, 0x3F));
     }
+    to->input = input;
+    to->output = output;
     return true;
 }

@@ -33,15 +33,15 @@ struct ddlm {
     uint8_t master;
     uint8_t groups;
     uint8_t faults;      /* DIAG_* that stay until the next good Set_Prm      */
-    bool by_switches;    /* address comes from switches                       */
-    bool locked;         /* No_Add_Chg                                         */
-    bool sync_enabled;
-    bool freeze_enabled;
-    bool cfg_ok;         /* Chk_Cfg was good, inputs are awaited              */
+    uint8_t by_switches;    /* address comes from switches                       */
+    uint8_t locked;         /* No_Add_Chg                                         */
+    uint8_t sync_enabled;
+    uint8_t freeze_enabled;
+    uint8_t cfg_ok;         /* Chk_Cfg was good, inputs are awaited              */
     uint8_t input_len;
     uint8_t output_len;
 };
-extern struct ddlm XDATA ddlm;
+extern IDATA struct ddlm ddlm;
 extern struct ddlm_counters XDATA ddlm_counters;
 
 /* ---- ddlm.c ---- */
@@ -71,7 +71,8 @@ bool ddlm_stored_lock(void);
 extern struct fdl_reply PAGED ddlm_diag_reply;
 void ddlm_diag_init(void);
 void ddlm_diag_update(void);              /* something Slave_Diag shows has changed */
-void ddlm_diag_read_isr(void) IN_ISR;     /* the master is reading it               */
+void ddlm_diag_ask_isr(void) IN_ISR;      /* a master is about to read it           */
+void ddlm_diag_read_isr(void) IN_ISR;     /* it has read it                         */
 
 /* ---- ddlm_data.c: Data_Exchange and Global_Control ---- */
 extern struct fdl_reply PAGED ddlm_input_reply;
@@ -80,7 +81,6 @@ void ddlm_data_init(void);
 void ddlm_data_start(void);               /* a new configuration: no inputs yet, outputs fail-safe      */
 void ddlm_data_safe(void);                /* outputs fail-safe, Sync and Freeze off                     */
 void ddlm_data_poll(void);                /* what the interrupt noted for the main loop                 */
-void ddlm_diag_flag(bool pending);        /* Diag_Flag: Data_Exchange is answered DH                    */
 bool ddlm_sync_mode(void);
 bool ddlm_freeze_mode(void);
 

@@ -74,6 +74,9 @@ struct fdl_counters {
     uint16_t refused;        /* answered RS, RR or UE                                                  */
 };
 
+/* One more of these. isr. */
+void fdl_count_isr(uint16_t XDATA *count) IN_ISR;
+
 /* What has been heard since the caller last cleared it; for time supervision in the main loop. */
 #define FDL_HEARD_ANY   0x01u /* an error-free SD1, SD2 or SD3 telegram, from anybody to anybody */
 #define FDL_HEARD_OWN   0x02u /* one addressed to this station                                   */
@@ -129,23 +132,35 @@ void fdl_data_ind(const struct fdl_ind XDATA *ind);
 /* An update buffer: the answer to the next SRD. Three rooms turn: one was sent last (and is kept for the master's
  * retry), one is ready, one is being written by the main loop.
  *
- *   room   | length sum | SD LE LEr SD DA SA FC DAE SAE | L_sdu ......... | FCS ED |
+ *   room   | length sum start | SD LE LEr SD DA SA FC DAE SAE | L_sdu ......... | FCS ED |
  *
- * Invariant: sent, ready and spare are the three rooms, in any order. */
-#define FDL_ROOM_HEAD 11u
+ * A whole frame stands in a room beforehand, from `start` on: the answer to the header that was answered last. Only
+ * where another one asks, or asks in another way, is it built around the data anew.
+ * Invariants: sent, ready and spare are the three rooms, in any order; a room with frame_len != 0 holds the answer to
+ * da, sa, dsap, ssap with the priority of `is`. */
+#define FDL_ROOM_HEAD 12u
 #define FDL_ROOM_TAIL 2u
 #define FDL_ROOM(lsdu_max) ((lsdu_max) + FDL_ROOM_HEAD + FDL_ROOM_TAIL)
+
+#define FDL_HIGH   0x01u /* answer DH instead of DL                  */
+#define FDL_SINGLE 0x02u /* Transmit = single: gone once sent        */
+#define FDL_FRESH  0x04u /* ready is newer than sent                 */
+#define FDL_HOLD   0x08u /* keep on answering with sent (DP: freeze) */
+#define FDL_VALID  0x10u /* there is something to answer with        */
+
+struct fdl_room {
+    uint8_t XDATA *octets;
+    uint8_t frame_len; /* 0: the frame is still to be built */
+};
 struct fdl_reply {
-    uint8_t XDATA *sent;
-    uint8_t XDATA *ready;
-    uint8_t XDATA *spare;
-    uint8_t max;    /* longest L_sdu                                               */
-    uint8_t turns;  /* counts how often sent has changed                            */
-    bool valid;     /* there is something to answer with                            */
-    bool fresh;     /* ready is newer than sent                                      */
-    bool hold;      /* keep on answering with sent (DP: freeze)                      */
-    bool high;      /* answer DH instead of DL                                       */
-    bool single;    /* Transmit = single: gone once sent                             */
+    uint8_t is; /* FDL_FRESH ... */
+    struct fdl_room PAGED *sent;
+    struct fdl_room PAGED *ready;
+    struct fdl_room PAGED *spare;
+    struct fdl_room rooms[3];
+    uint8_t da, sa;     /* of the request that is answered */
+    uint8_t dsap, ssap; /* with FDL_AS_SD3 in dsap         */
+    uint8_t max;        /* longest L_sdu                   */
 };
 
 /* Bind a reply to three rooms of FDL_ROOM(max) octets laid one after the other at rooms; empty. max 0..246; asked
@@ -156,7 +171,7 @@ void fdl_reply_init(struct fdl_reply PAGED *reply, uint8_t XDATA *rooms, uint8_t
  * widened). */
 enum fdl_handling {
     FDL_ANSWER_ONLY, /* nobody: answered from the reply buffer                      */
-    FDL_TO_ISR,      /* fdl_ind_isr() decides, at once                              */
+    FDL_TO_ISR,      /* fdl_ask_isr() decides, fdl_ind_isr() executes               */
     FDL_TO_MAIN,     /* acknowledged now, fdl_data_ind() later; RR when boxes are full */
 };
 
@@ -185,8 +200,8 @@ enum fdl_l_status {
     FDL_L_IV
 };
 #define FDL_UPDATE_LOW    0x00u
-#define FDL_UPDATE_HIGH   0x01u
-#define FDL_UPDATE_SINGLE 0x02u
+#define FDL_UPDATE_HIGH   FDL_HIGH
+#define FDL_UPDATE_SINGLE FDL_SINGLE
 #define FDL_UPDATE_KEEP   0x04u /* fdl_reply_write() only: leave the priority as it is */
 uint8_t fdl_reply_update(uint8_t ssap, const uint8_t XDATA *lsdu, uint8_t len, uint8_t how);
 
@@ -196,24 +211,37 @@ void fdl_reply_write(struct fdl_reply PAGED *reply, const uint8_t XDATA *lsdu, u
 /* Make what was written last the next answer even under hold. isr. */
 void fdl_reply_release_isr(struct fdl_reply PAGED *reply) IN_ISR;
 
+/* Answer with this priority, FDL_UPDATE_HIGH (DH) or _LOW, from now on. isr, lock. */
+void fdl_reply_priority_isr(struct fdl_reply PAGED *reply, uint8_t priority) IN_ISR;
+
+/* There is nothing to answer with until the next update. main. */
+void fdl_reply_empty(struct fdl_reply PAGED *reply);
+
 /* ---- the request at hand, isr ---------------------------------------------------------------------------- */
+
+#define FDL_AS_SD3 0x80u
 
 struct fdl_req {
     uint8_t service; /* FDL_SDA, FDL_SDN, FDL_SRD */
     uint8_t dsap;
     uint8_t ssap;
     uint8_t sa;
-    uint8_t sd3;     /* 1: came as an SD3. our choice: then eight octets go back as an SD3, else as an SD2 as
-                      * all recorded stations do */
+    uint8_t sd3;     /* FDL_AS_SD3: came as an SD3. our choice: then eight octets go back as an SD3, else as an SD2
+                      * as all recorded stations do */
     uint8_t len;     /* of lsdu; the telegram may have been longer: then it was refused */
-    uint8_t XDATA *lsdu;
-    struct fdl_reply PAGED *reply; /* what an SRD will be answered from: the SAP's, or what fdl_ind_isr() puts here */
+    uint8_t XDATA *lsdu; /* for fdl_ind_isr() */
+    struct fdl_reply PAGED *reply; /* what an SRD will be answered from: the SAP's, or what fdl_ask_isr() puts here */
 };
 extern HOT struct fdl_req fdl_req;
 
-/* Implemented by the layer above: fdl_req is for a SAP activated with FDL_TO_ISR. -> FDL_OK: answer from the reply
- * buffer; FDL_RS, FDL_RR or FDL_UE: refuse. The value is ignored for SDN. isr. */
-uint8_t fdl_ind_isr(void) IN_ISR;
+/* Implemented by the layer above: a request for a SAP activated with FDL_TO_ISR is coming in, its L_sdu is not there
+ * yet and it may be wrong: answer, and change nothing. -> FDL_OK: from the reply buffer; FDL_RS, FDL_RR or FDL_UE:
+ * refuse. The value is ignored for SDN. May be asked again when main has changed something. isr, lock. */
+uint8_t fdl_ask_isr(void) IN_ISR;
+
+/* Implemented by the layer above: the request was good, and has been answered as fdl_ask_isr() said: execute it. Comes
+ * once for each request, when its answer is out or will not go out; not if its SAP has been deactivated since. isr. */
+void fdl_ind_isr(void) IN_ISR;
 
 /* Is there an indication for SAP dsap, from the station of fdl_req, that the main loop has not dealt with yet? isr. */
 bool fdl_waiting_isr(uint8_t dsap) IN_ISR;

@@ -12,7 +12,7 @@ extern struct fdl_counters XDATA fdl_counters;
 
 /* ---- fdl_rx: octets to telegram ---- */
 
-extern uint8_t XDATA *HOT fdl_rx_buf; /* telegram being received; replaced only from fdl_telegram_isr() */
+extern uint8_t XDATA *HOT fdl_rx_buf; /* telegram being received; replaced only while the receiver is deaf */
 
 /* The telegram being received. In internal RAM, and handed on by name: SDCC keeps arguments and pointers that do not
  * fit its registers in external RAM, at four times the price. */
@@ -21,46 +21,41 @@ struct fdl_header {
     uint8_t da;
     uint8_t sa;
     uint8_t fc;
-    uint8_t more[2]; /* the octets behind these (of a body of three or four: FCS and ED); set by fdl.c  */
+    uint8_t more[2]; /* the octets behind these, where one of them is a SAP                             */
     uint8_t fcs;     /* at its end                                                                      */
-    uint8_t sd3;     /* 1: it is an SD3                                                                 */
-    uint8_t whole;   /* 0: longer than FDL_BODY_MAX, only DA SA FC and more[] are to be trusted         */
 };
 extern HOT struct fdl_header fdl_header;
-
-/* One more of these. */
-void fdl_count_isr(uint16_t XDATA *count) IN_ISR;
 
 /* Forget what was being received. main with interrupts masked. */
 void fdl_rx_reset(void);
 
-/* Implemented by fdl.c: len, DA SA FC have been received, FCS not yet checked: nothing may be done that lasts.
- * True: go on; false: nobody here wants the rest, hear nothing until the next T_SYN. */
-bool fdl_header_isr(void) IN_ISR;
+/* Implemented by fdl_plan.c: len, and DA SA FC in fdl_rx_buf, have been received, FCS not yet checked: nothing may be
+ * done that lasts. -> FDL_SKIP: nobody here wants the rest, hear nothing until the next T_SYN; FDL_TAKE: go on to the
+ * end; FDL_SHOW_SAPS: tell when the (up to) two octets behind them are there. */
+enum fdl_wants { FDL_SKIP, FDL_TAKE, FDL_SHOW_SAPS };
+uint8_t fdl_header_isr(void) IN_ISR;
 
-/* Implemented by fdl.c: the two octets behind the header are there, too. FCS not yet checked. */
+/* Implemented by fdl_plan.c: these are there. FCS not yet checked. */
 void fdl_saps_isr(void) IN_ISR;
 
 /* Implemented by fdl.c: fdl_rx_buf holds a telegram with good FCS and ED, its body from fdl_rx_buf[FDL_BODY] on. */
 void fdl_telegram_isr(void) IN_ISR;
+
+/* Implemented by fdl.c: T_SYN of silence: a request that still waits to be executed will not be. */
+void fdl_drop_isr(void) IN_ISR;
 
 /* Implemented by fdl.c: a token or a short acknowledge went by. */
 void fdl_other_isr(void) IN_ISR;
 
 /* ---- fdl_tx: answers ---- */
 
-struct fdl_frame {
-    const uint8_t XDATA *at;
-    uint8_t len;
-    uint8_t function;
-};
-extern IDATA struct fdl_frame fdl_tx; /* the answer built last */
+/* Build an answer to fdl_header and fdl_req into phy_tx. None of them touches the answer that is kept for a retry. */
+void fdl_tx_short_isr(void) IN_ISR;                /* SC                                                        */
+void fdl_tx_fixed_isr(uint8_t function) IN_ISR;    /* SD1                                                       */
+void fdl_tx_status_isr(void) IN_ISR;               /* SD1: OK                                                   */
+void fdl_tx_keep_isr(void) IN_ISR;                 /* the SD1 built last is kept: the next one goes elsewhere   */
 
-/* Build an answer to fdl_req from station ts into fdl_tx. */
-void fdl_tx_short_isr(void) IN_ISR;                           /* SC                                        */
-void fdl_tx_fixed_isr(uint8_t function) IN_ISR;               /* SD1                                       */
-void fdl_tx_status_isr(uint8_t function) IN_ISR;              /* SD1 that leaves the kept answer alone      */
-void fdl_tx_reply_isr(struct fdl_reply PAGED *reply) IN_ISR;  /* SD2, SD3, SD1 or SC, as the reply has it  */
+void fdl_tx_build_isr(struct fdl_room PAGED *room) IN_ISR; /* the frame in a room, around an L_sdu that fits */
 
 /* ---- fdl_sap: service access points ---- */
 
@@ -78,5 +73,74 @@ void fma_watch_cleared(const uint16_t XDATA *count);    /* sd_count or sd_error_
 uint16_t fma_count(const uint16_t XDATA *count);        /* of fma.c: the count, read with interrupts masked */
 
 extern HOT uint8_t fdl_ts; /* this station's address */
+
+/* ---- fdl_plan: what is done when the telegram turns out to be good ----
+ *
+ * Made from the header and the SAPs while the rest comes in. Nothing that lasts is done before the end, and main makes
+ * the plan anew where it changes what a plan was made from: at the end there is nothing left to decide. */
+enum fdl_stage {
+    FDL_IDLE,
+    FDL_OTHERS,  /* what is coming in is not for us                                   */
+    FDL_UNKNOWN, /* it is for us, and no request that a responder knows               */
+    FDL_PLANNED, /* a request to us is coming in                                      */
+    FDL_TO_BOOK  /* it was good, its answer is on its way: executed when that is out  */
+};
+
+/* Value of fdl_req.service beside FDL_SDA, FDL_SDN, FDL_SRD. */
+#define FDL_NUMBERLESS 0x20u /* FDL status, Ident, LSAP status: they leave the FCB alone */
+
+/* FC function -> service, and whether it is the one of high priority. */
+#define FDL_IS_HIGH 0x80u
+extern const CODE uint8_t fdl_functions[FDL_FC_FUNCTION + 1u];
+
+struct fdl_plan {
+    uint8_t stage;
+    uint8_t hears;    /* FDL_HEARD_*                                                     */
+    uint8_t refusal;  /* FDL_OK: none                                                    */
+    uint8_t handling; /* who executes the request: FDL_ANSWER_ONLY: nobody                */
+    uint8_t is;       /* of fdl_req.reply, FDL_FRESH only where it is to be turned        */
+    uint8_t late;     /* the frame of fdl_req.reply is to be built when the telegram is good */
+    uint8_t again;    /* FC is that of the request answered last: perhaps a retry         */
+
+    /* What follows from header and SAPs alone stays as it is while the same ones come again and main changes nothing:
+     * in cyclic traffic nearly always. */
+    uint8_t made;     /* for a header with this length; 0: not at all */
+    uint8_t same;     /* the header is the same, its SAPs are to come */
+    uint8_t result;   /* FDL_OK, or what the SAP's row refuses with    */
+    uint8_t row_handling;
+    struct fdl_reply PAGED *row_reply;
+};
+extern HOT struct fdl_plan fdl_plan;
+
+/* The last numbered request and its answer. A frame is a retry only if it is the same frame: FCV, same SA, same
+ * FCB and octet-identical, for which length, header, the two octets behind it (SAPs) and FCS are compared. Masters
+ * that forget to restart the FCB after a lost answer would otherwise be answered with stale data for ever (facts,
+ * section 0). */
+struct fdl_last {
+    uint8_t len; /* 0: none */
+    uint8_t da;
+    uint8_t sa;
+    uint8_t fc;
+    uint8_t more[2];
+    uint8_t fcs;
+    const uint8_t XDATA *answer;
+    uint8_t answer_len;            /* 0: its room has been given up: answer with what there is now */
+    struct fdl_reply PAGED *reply; /* the answer stands in its room; 0 = elsewhere */
+};
+extern IDATA struct fdl_last fdl_last;
+
+extern IDATA uint8_t fdl_watched;
+extern IDATA uint8_t fdl_others; /* FDL_TAKE, or FDL_SKIP: telegrams of others are of no interest */
+
+bool fdl_box_is_free_isr(void) IN_ISR;
+
+/* main, locked: SAP, reply or address have changed (reply: only this one; 0: anything). */
+void fdl_replan_isr(struct fdl_reply PAGED *reply) IN_ISR;
+
+/* Take `ready` for `sent`. */
+void fdl_turn_isr(struct fdl_reply PAGED *reply) IN_ISR;
+
+/* No frame of the reply's rooms is right any more. */
+void fdl_void_frames_isr(struct fdl_reply PAGED *reply) IN_ISR;
 
 #endif

@@ -10,7 +10,7 @@
 
 /* What is awaited next. */
 enum rx_state {
-    RX_SYN,      /* T_SYN of silence: the receiver is deaf                    */
+    RX_SYN,      /* T_SYN of silence: the receiver is deaf. Out of step, only that resynchronises */
     RX_ALONE,    /* a start delimiter, on a line that cannot show silence     */
     RX_SD,       /* a start delimiter and the octet behind it                 */
     RX_SD2_HEAD, /* LEr SD2                                                   */
@@ -25,7 +25,7 @@ uint8_t XDATA *HOT fdl_rx_buf;
 HOT struct fdl_header fdl_header;
 
 static HOT uint8_t state;
-static HOT uint8_t missing;  /* octets of body, FCS and ED to come   */
+static IDATA uint8_t missing; /* octets of body, FCS and ED to come */
 
 #define HEADER_LEN 3u /* DA SA FC            */
 #define KEPT_LEN   5u /* DA SA FC and two more: kept even of a telegram that is too long */
@@ -58,57 +58,48 @@ static uint8_t wait_sd_isr(void) IN_ISR
 /* A telegram has ended, good or foreign. */
 static uint8_t telegram_end_isr(void) IN_ISR
 {
-    if (phy_telegram_end_isr())
+    if (phy_rx.untimed)
         return wait_sd_isr();
-    return RX_SYN;
-}
-
-/* Out of step: only T_SYN of silence resynchronises. */
-static uint8_t drop_isr(void) IN_ISR
-{
-    phy_deaf_isr();
     return RX_SYN;
 }
 
 /* The rest, in pieces where it is longer than the buffer: what is kept stays, what follows it is overwritten by the
  * next piece (the telegram will be refused; its FCS is still checked). */
-static uint8_t want_rest_isr(void) IN_ISR
+static uint8_t want_rest_isr(uint8_t room) IN_ISR
 {
-    const uint8_t room = (uint8_t)(FDL_BUF_LEN - FDL_BODY - KEPT_LEN);
-
     if (missing <= room) {
         phy_rx.left = missing;
         return RX_BODY;
     }
-    phy_rx.left = room - TAIL_LEN;
-    missing = (uint8_t)(missing - (room - TAIL_LEN));
+    phy_rx.left = (uint8_t)(room - TAIL_LEN);
+    missing = (uint8_t)(missing - phy_rx.left);
     return RX_PIECE;
 }
+
+#define ROOM_BEHIND(octets) ((uint8_t)(FDL_BUF_LEN - FDL_BODY - (octets)))
 
 /* DA SA FC are there. They are looked at now, while the rest comes in: what is decided here costs no T_SDR. */
 static uint8_t header_isr(void) IN_ISR
 {
-    fdl_header.da = fdl_rx_buf[FDL_BODY];
-    fdl_header.sa = fdl_rx_buf[FDL_BODY + 1u];
-    fdl_header.fc = fdl_rx_buf[FDL_BODY + 2u];
-    phy_rx.sum = (uint8_t)(fdl_header.da + fdl_header.sa + fdl_header.fc);
-    if (!fdl_header_isr() && !phy_rx.untimed) {
+    const uint8_t wants = fdl_header_isr();
+
+    if (wants == FDL_SKIP && !phy_rx.untimed) {
         fdl_other_isr();
-        return drop_isr();
+        return RX_SYN;
     }
-    if (fdl_header.len >= KEPT_LEN) {
-        phy_rx.left = KEPT_LEN - HEADER_LEN;
-        return RX_SAPS;
-    }
-    phy_rx.left = (uint8_t)(fdl_header.len - HEADER_LEN + TAIL_LEN);
-    return RX_BODY;
+    missing = (uint8_t)(fdl_header.len - HEADER_LEN + TAIL_LEN);
+    if (wants != FDL_SHOW_SAPS)
+        return want_rest_isr(ROOM_BEHIND(HEADER_LEN));
+    phy_rx.left = KEPT_LEN - HEADER_LEN; /* of a body of four, the second one is FCS */
+    return RX_SAPS;
 }
 
 /* DA is there, for formats that begin with it. */
 static uint8_t start_body_isr(uint8_t len) IN_ISR
 {
     fdl_header.len = len;
-    fdl_rx_buf[FDL_BODY] = fdl_rx_buf[1];
+    phy_rx.sum = fdl_rx_buf[1];
+    fdl_rx_buf[FDL_BODY] = phy_rx.sum;
     phy_rx.at = fdl_rx_buf + (FDL_BODY + 1u);
     phy_rx.left = HEADER_LEN - 1u;
     return RX_HEADER;
@@ -118,15 +109,15 @@ static uint8_t bad_sd_isr(void) IN_ISR
 {
     fdl_counters.sd_count--;
     fdl_count_isr(&fdl_counters.sd_error_count);
-    return drop_isr();
+    return RX_SYN;
 }
 
 static uint8_t st_sd_isr(void) IN_ISR
 {
     uint8_t sd = fdl_rx_buf[0];
 
-    fdl_counters.sd_count++;
-    fdl_header.sd3 = 0;
+    fdl_counters.sd_count++; /* written out: it is in the way of every telegram */
+    fdl_req.sd3 = 0;
     if (sd == FDL_SD2) {
         phy_rx.left = 2;
         return RX_SD2_HEAD;
@@ -134,7 +125,8 @@ static uint8_t st_sd_isr(void) IN_ISR
     if (sd == FDL_SD1)
         return start_body_isr(HEADER_LEN);
     if (sd == FDL_SD3) {
-        fdl_header.sd3 = 1;
+        fdl_req.sd3 = FDL_AS_SD3;
+        fdl_plan.made = 0;
         return start_body_isr(HEADER_LEN + FDL_SD3_DU);
     }
     if (sd == FDL_SD4) {
@@ -163,8 +155,9 @@ static uint8_t st_sd2_head_isr(void) IN_ISR
     if (fdl_header.len != fdl_rx_buf[2] || fdl_header.len < FDL_LE_MIN || fdl_header.len > FDL_LE_MAX ||
         fdl_rx_buf[3] != FDL_SD2) {
         fdl_count_isr(&fdl_counters.format);
-        return drop_isr();
+        return RX_SYN;
     }
+    phy_rx.sum = 0;
     phy_rx.left = HEADER_LEN;
     return RX_HEADER;
 }
@@ -172,38 +165,40 @@ static uint8_t st_sd2_head_isr(void) IN_ISR
 static uint8_t st_piece_isr(void) IN_ISR
 {
     phy_rx.at = fdl_rx_buf + FDL_BODY + KEPT_LEN;
-    return want_rest_isr();
+    return want_rest_isr(ROOM_BEHIND(KEPT_LEN));
 }
 
 static uint8_t st_saps_isr(void) IN_ISR
 {
     fdl_saps_isr();
-    missing = (uint8_t)(fdl_header.len - (KEPT_LEN - TAIL_LEN));
-    return want_rest_isr();
+    missing = (uint8_t)(missing - (KEPT_LEN - HEADER_LEN));
+    return want_rest_isr(ROOM_BEHIND(KEPT_LEN));
 }
 
+/* The sum of the body is FCS: with FCS and ED counted in, the whole is twice FCS and ED. */
 static uint8_t st_body_isr(void) IN_ISR
 {
-    fdl_header.fcs = phy_rx.at[-2];
-    if (phy_rx.at[-1] != FDL_ED) {
+    const uint8_t XDATA *tail = phy_rx.at - TAIL_LEN;
+
+    fdl_header.fcs = *tail++;
+    if (*tail != FDL_ED) {
         fdl_count_isr(&fdl_counters.format);
-        return drop_isr();
+        return RX_SYN;
     }
-    if ((uint8_t)(phy_rx.sum - FDL_ED - fdl_header.fcs) != fdl_header.fcs) {
+    if ((uint8_t)(fdl_header.fcs + fdl_header.fcs + FDL_ED) != phy_rx.sum) {
         fdl_count_isr(&fdl_counters.checksum);
-        return drop_isr();
+        return RX_SYN;
     }
-    if (fdl_header.len < KEPT_LEN)
-        fdl_saps_isr();
-    fdl_header.whole = 1;
-    if (fdl_header.len > FDL_BODY_MAX)
-        fdl_header.whole = 0;
     fdl_telegram_isr();
     return telegram_end_isr();
 }
 
 void phy_chunk_ind_isr(void) IN_ISR
 {
+    if (state == RX_BODY) { /* first: the other station waits */
+        state = st_body_isr();
+        return;
+    }
     switch (state) {
     case RX_ALONE:
         state = st_alone_isr();
@@ -227,17 +222,15 @@ void phy_chunk_ind_isr(void) IN_ISR
     case RX_PIECE:
         state = st_piece_isr();
         break;
-    case RX_BODY:
-        state = st_body_isr();
-        break;
     default:
-        state = drop_isr();
+        state = RX_SYN;
         break;
     }
 }
 
 void phy_syn_ind_isr(void) IN_ISR
 {
+    fdl_drop_isr();
     if (state == RX_SD && phy_rx.left == 1)
         state = st_sd_isr(); /* one octet and then silence: a short acknowledge, or nothing that makes sense */
     if (state > RX_SD)

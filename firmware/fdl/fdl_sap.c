@@ -60,9 +60,9 @@ static uint8_t find_row(uint8_t sap)
 
 bool fdl_sap_set(uint8_t sap, const struct fdl_sap PAGED *how)
 {
-    struct fdl_sap PAGED *at;
     uint8_t row;
     uint8_t irq;
+    uint8_t i;
 
     if (!number_is_valid(sap))
         return false;
@@ -70,27 +70,31 @@ bool fdl_sap_set(uint8_t sap, const struct fdl_sap PAGED *how)
     if (row == NO_ROW)
         return false;
     irq = hal_irq_save();
-    at = &rows[row];
-    at->access = how->access;
-    at->services = how->services;
-    at->max_len = how->max_len;
-    at->handling = how->handling;
-    at->reply = how->reply;
+    for (i = 0; i < sizeof *how; i++) /* SDCC's struct assignment is a library of its own */
+        ((uint8_t PAGED *)&rows[row])[i] = ((const uint8_t PAGED *)how)[i];
     owner_of[row] = sap;
     row_of[sap] = row;
+    fdl_replan_isr(0);
     hal_irq_restore(irq);
     return true;
 }
 
+/* A request that has been answered and not yet executed goes with its SAP. */
 bool fdl_sap_clear(uint8_t sap)
 {
     uint8_t row;
+    uint8_t irq;
 
     if (!number_is_valid(sap) || row_of[sap] == NO_ROW)
         return false;
     row = row_of[sap];
+    irq = hal_irq_save();
     row_of[sap] = NO_ROW;
     owner_of[row] = NO_ROW;
+    if (fdl_req.dsap == sap)
+        fdl_plan.handling = FDL_ANSWER_ONLY;
+    fdl_replan_isr(0);
+    hal_irq_restore(irq);
     return true;
 }
 
@@ -98,42 +102,81 @@ bool fdl_sap_clear(uint8_t sap)
 
 void fdl_reply_init(struct fdl_reply PAGED *reply, uint8_t XDATA *rooms, uint8_t max)
 {
-    uint8_t XDATA *second = rooms + FDL_ROOM(max);
+    uint8_t i;
 
-    reply->sent = rooms;
-    reply->ready = second;
-    reply->spare = second + FDL_ROOM(max);
+    for (i = 0; i < 3; i++) {
+        reply->rooms[i].octets = rooms;
+        reply->rooms[i].frame_len = 0;
+        rooms += FDL_ROOM(max);
+    }
+    reply->sent = &reply->rooms[0];
+    reply->ready = &reply->rooms[1];
+    reply->spare = &reply->rooms[2];
     reply->max = max;
-    reply->turns = 0;
-    reply->valid = false;
-    reply->fresh = false;
-    reply->hold = false;
-    reply->high = false;
-    reply->single = false;
+    reply->is = 0;
 }
+
+static uint8_t XDATA *HOT to;
+static const uint8_t XDATA *HOT from;
+static HOT uint8_t sum;
+static struct fdl_room PAGED *HOT room;
+static struct fdl_room PAGED *HOT model;
+
+static void copy(uint8_t n)
+{
+    sum = 0;
+    for (; n; n--) {
+        *to = *from++;
+        sum = (uint8_t)(sum + *to++);
+    }
+}
+
+/* The frame around new data is that around the data sent last, if they are as long: its octets before the data, and
+ * FCS by the difference. The room sent last keeps its octets even if it becomes `ready` meanwhile; where an interrupt
+ * writes to it, frame_len of all rooms is 0 afterwards. */
+#define BEING_COPIED 1u
 
 void fdl_reply_write(struct fdl_reply PAGED *reply, const uint8_t XDATA *lsdu, uint8_t len, uint8_t how)
 {
-    uint8_t XDATA *room = reply->spare;
-    uint8_t XDATA *to = room + FDL_ROOM_HEAD;
-    uint8_t sum = 0;
-    uint8_t n;
+    uint8_t fcs;
     uint8_t irq;
 
-    for (n = len; n; n--) {
-        sum = (uint8_t)(sum + *lsdu);
-        *to++ = *lsdu++;
-    }
-    room[0] = len;
-    room[1] = sum;
+    room = reply->spare;
+    model = reply->sent;
+    room->frame_len = BEING_COPIED;
+    to = room->octets;
+    from = model->octets;
+    copy(FDL_ROOM_HEAD);
+    from += len;
+    fcs = *from;
+    from = lsdu;
+    copy(len);
+    from = model->octets;
+    to[0] = (uint8_t)(fcs - from[1] + sum);
+    to[1] = FDL_ED;
+    to = room->octets;
+    to[0] = len;
+    to[1] = sum;
     irq = hal_irq_save();
+    if (room->frame_len && len == from[0])
+        room->frame_len = model->frame_len;
+    else
+        room->frame_len = 0;
     reply->spare = reply->ready;
     reply->ready = room;
-    reply->fresh = true;
-    reply->valid = true;
+    reply->is = (uint8_t)((reply->is & ~FDL_SINGLE) | FDL_FRESH | FDL_VALID | (how & FDL_SINGLE));
     if (!(how & FDL_UPDATE_KEEP))
-        reply->high = (how & FDL_UPDATE_HIGH) != 0;
-    reply->single = (how & FDL_UPDATE_SINGLE) != 0;
+        fdl_reply_priority_isr(reply, how & FDL_UPDATE_HIGH);
+    fdl_replan_isr(reply);
+    hal_irq_restore(irq);
+}
+
+void fdl_reply_empty(struct fdl_reply PAGED *reply)
+{
+    uint8_t irq = hal_irq_save();
+
+    reply->is &= (uint8_t)~FDL_VALID;
+    fdl_replan_isr(reply);
     hal_irq_restore(irq);
 }
 
@@ -177,7 +220,7 @@ struct fdl_reply PAGED *fdl_ident_reply_isr(void) IN_ISR
 #define TYPE_SRD  3u
 #define TYPE_CSRD 5u
 
-static HOT uint8_t offered; /* services of the SAP asked about */
+static IDATA uint8_t offered; /* services of the SAP asked about */
 
 /* Built where the answer will stand: lsap is never updated, so it is always its first room that is sent. */
 static void lsap_put_isr(uint8_t octet) IN_ISR
@@ -205,12 +248,13 @@ struct fdl_reply PAGED *fdl_lsap_reply_isr(void) IN_ISR
     offered = row->services;
     lsap_rooms[0][0] = 0;
     lsap_rooms[0][1] = 0;
+    fdl_void_frames_isr(&lsap);
     lsap_put_isr(row->access);
     lsap_put_isr(0);
     lsap_put_role_isr(FDL_SDA);
     lsap_put_role_isr(FDL_SDN);
     lsap_put_role_isr(FDL_SRD);
     lsap_put_isr(TYPE_CSRD | (offered & FDL_SRD ? ROLE_RESPONDER : ROLE_NONE));
-    lsap.valid = true;
+    lsap.is = FDL_VALID;
     return &lsap;
 }

@@ -10,159 +10,137 @@
  * Source   EN 50170-2 part 4, 4.7.1; answers of the responder part 4, 4.1.3; spec A3
  */
 #include "fdl/fdl_priv.h"
+#include "phy_uart/phy_uart.h"
 
-IDATA struct fdl_frame fdl_tx;
-
-/* An SD1 that answers a numbered request (FCB) is kept for the retry, so status answers have a room of their own. */
-static uint8_t XDATA numbered[6];
-static uint8_t XDATA unnumbered[6];
+/* The SD1 that answered a numbered request is kept for its retry; the next one is built in the other. */
+static uint8_t XDATA sd1[2][6];
+static IDATA uint8_t kept;
 static uint8_t XDATA short_ack[1];
 
-static void tx_sd1_isr(uint8_t XDATA *room, uint8_t function) IN_ISR
+/* By name and in internal RAM, not as arguments: see struct fdl_header. */
+static uint8_t XDATA *HOT at;
+static HOT uint8_t sum;
+
+static void put_isr(uint8_t octet) IN_ISR
 {
-    room[0] = FDL_SD1;
-    room[1] = fdl_req.sa;
-    room[2] = fdl_ts;
-    room[3] = function;
-    room[4] = (uint8_t)(fdl_req.sa + fdl_ts + function);
-    room[5] = FDL_ED;
-    fdl_tx.at = room;
-    fdl_tx.len = 6;
+    *at++ = octet;
+    sum = (uint8_t)(sum + octet);
 }
 
+/* Addresses come back exchanged, without extension. */
 void fdl_tx_fixed_isr(uint8_t function) IN_ISR
 {
-    tx_sd1_isr(numbered, function);
+    at = kept ? sd1[0] : sd1[1];
+    phy_tx.at = at;
+    phy_tx.len = 6;
+    put_isr(FDL_SD1);
+    sum = 0;
+    put_isr(fdl_req.sa);
+    put_isr(fdl_header.da & 0x7Fu);
+    put_isr(function);
+    put_isr(sum);
+    put_isr(FDL_ED);
 }
 
-void fdl_tx_status_isr(uint8_t function) IN_ISR
+/* In a room of its own, at a known place: FDL status comes in the shortest of all telegrams. */
+void fdl_tx_status_isr(void) IN_ISR
 {
-    tx_sd1_isr(unnumbered, function);
+    static uint8_t XDATA status[6];
+    const uint8_t da = fdl_header.da;
+
+    status[0] = FDL_SD1;
+    status[1] = fdl_req.sa;
+    status[2] = da;
+    status[3] = FDL_OK;
+    status[4] = (uint8_t)(fdl_req.sa + da);
+    status[5] = FDL_ED;
+    phy_tx.at = status;
+    phy_tx.len = 6;
+}
+
+void fdl_tx_keep_isr(void) IN_ISR
+{
+    kept ^= 1u;
 }
 
 void fdl_tx_short_isr(void) IN_ISR
 {
     short_ack[0] = FDL_SC;
-    fdl_tx.at = short_ack;
-    fdl_tx.len = 1;
+    phy_tx.at = short_ack;
+    phy_tx.len = 1;
 }
 
-void fdl_reply_release_isr(struct fdl_reply PAGED *reply) IN_ISR
+void fdl_turn_isr(struct fdl_reply PAGED *reply) IN_ISR
 {
-    uint8_t XDATA *sent;
+    struct fdl_room PAGED *sent = reply->sent;
 
-    if (!reply->fresh)
-        return;
-    sent = reply->sent;
     reply->sent = reply->ready;
     reply->ready = sent;
-    reply->turns++;
-    reply->fresh = false;
+    reply->is &= (uint8_t)~FDL_FRESH;
 }
 
-/* No L_sdu: an SD1 says "diagnosis pending" where an SC could not (spec A3; facts 3.9); SC is "no reply data". */
-static void tx_empty_isr(bool high) IN_ISR
+void fdl_void_frames_isr(struct fdl_reply PAGED *reply) IN_ISR
 {
-    if (high)
-        fdl_tx_fixed_isr(FDL_DH);
-    else
-        fdl_tx_short_isr();
+    reply->rooms[0].frame_len = 0;
+    reply->rooms[1].frame_len = 0;
+    reply->rooms[2].frame_len = 0;
 }
 
-/* By name and in internal RAM, not as arguments: see struct fdl_header. */
-static struct fdl_reply PAGED *HOT from;
-static uint8_t XDATA *HOT lsdu;
-static uint8_t XDATA *HOT at;
-static HOT uint8_t len; /* of the L_sdu                      */
-static HOT uint8_t le;  /* of DA SA FC DAE SAE and the L_sdu */
-static HOT uint8_t da;
-static HOT uint8_t sa;
-static HOT uint8_t sum;
-
-/* SAP octets are mirrored: the requester's SSAP is our DAE. */
-static void measure_isr(void) IN_ISR
+/* What Freeze takes may give up the room of the answer kept for a retry. */
+void fdl_reply_release_isr(struct fdl_reply PAGED *reply) IN_ISR
 {
-    da = fdl_req.sa;
-    sa = fdl_ts;
-    le = (uint8_t)(len + 3u);
-    if (fdl_req.ssap != FDL_SAP_NIL) {
-        da |= FDL_ADDRESS_EXT;
-        le++;
-    }
-    if (fdl_req.dsap != FDL_SAP_NIL) {
-        sa |= FDL_ADDRESS_EXT;
-        le++;
-    }
+    if (!(reply->is & FDL_FRESH))
+        return;
+    fdl_turn_isr(reply);
+    if (fdl_last.reply == reply)
+        fdl_last.answer_len = 0;
 }
 
-static void put_saps_isr(void) IN_ISR
+void fdl_reply_priority_isr(struct fdl_reply PAGED *reply, uint8_t priority) IN_ISR
 {
-    if (da & FDL_ADDRESS_EXT) {
-        *at = fdl_req.ssap;
-        sum = (uint8_t)(sum + fdl_req.ssap);
-        at++;
-    }
-    if (sa & FDL_ADDRESS_EXT) {
-        *at = fdl_req.dsap;
-        sum = (uint8_t)(sum + fdl_req.dsap);
-    }
+    uint8_t is = (uint8_t)((reply->is & ~FDL_HIGH) | priority);
+
+    if (is == reply->is)
+        return;
+    reply->is = is;
+    fdl_void_frames_isr(reply);
+    fdl_replan_isr(reply);
 }
 
-/* SD2, or SD3 where it was asked so and fits: around the L_sdu, whose length and sum are known. */
-static void frame_isr(void) IN_ISR
+/* SD2, or SD3 where it was asked so and fits. The requester's octets come back exchanged: its SA is our DA, with its
+ * extension bit, its SSAP our DAE. */
+void fdl_tx_build_isr(struct fdl_room PAGED *room) IN_ISR
 {
-    at = lsdu - (uint8_t)(le - len);
-    at[0] = da;
-    at[1] = sa;
-    at[2] = fdl_tx.function;
-    sum = (uint8_t)(sum + da + sa + fdl_tx.function);
-    at -= 4;
-    fdl_tx.len = (uint8_t)(le + 6u);
+    uint8_t start = (uint8_t)(FDL_ROOM_HEAD - 4u - fdl_header.len + fdl_req.len); /* before SD2 DA SA FC DAE SAE */
+    uint8_t le;
+
+    fdl_void_frames_isr(fdl_req.reply); /* main may just be copying from this one */
+    at = room->octets;
+    le = (uint8_t)(at[0] + FDL_ROOM_HEAD - 4u - start);
+    sum = (uint8_t)(at[1] + fdl_header.sa + fdl_header.da);
     if (fdl_req.sd3 && le == 3u + FDL_SD3_DU) {
-        at += 3;
-        fdl_tx.len = (uint8_t)(le + 3u);
-        at[0] = FDL_SD3;
+        start = (uint8_t)(start + 3u);
+        room->frame_len = 3u + FDL_SD3_DU + 3u;
+        at[2] = start;
+        at += start;
+        *at++ = FDL_SD3;
     } else {
-        at[0] = FDL_SD2;
-        at[1] = le;
-        at[2] = le;
-        at[3] = FDL_SD2;
+        room->frame_len = (uint8_t)(le + 6u);
+        at[2] = start;
+        at += start;
+        *at++ = FDL_SD2;
+        *at++ = le;
+        *at++ = le;
+        *at++ = FDL_SD2;
     }
-    fdl_tx.at = at;
-    if (le != len + 3u) {
-        at = lsdu - (uint8_t)(le - len - 3u);
-        put_saps_isr();
-    }
-    at = lsdu + len;
-    at[0] = sum;
-    at[1] = FDL_ED;
-}
-
-void fdl_tx_reply_isr(struct fdl_reply PAGED *reply) IN_ISR
-{
-    from = reply;
-    if (!from->valid) {
-        fdl_tx_short_isr();
-        return;
-    }
-    if (!from->hold && from->fresh)
-        fdl_reply_release_isr(from);
-    if (from->single)
-        from->valid = false;
-    lsdu = from->sent;
-    len = lsdu[0];
-    sum = lsdu[1];
-    lsdu += FDL_ROOM_HEAD;
-    if (len == 0) {
-        tx_empty_isr(from->high);
-        return;
-    }
-    measure_isr();
-    if (le > FDL_LE_MAX || le < len) {
-        fdl_counters.refused++;
-        fdl_tx_fixed_isr(FDL_UE); /* our choice: asked with SAPs, they leave no room for so many data */
-        return;
-    }
-    fdl_tx.function = from->high ? FDL_DH : FDL_DL;
-    frame_isr();
+    *at++ = fdl_header.sa;
+    *at++ = fdl_header.da;
+    put_isr(fdl_plan.is & FDL_HIGH ? FDL_DH : FDL_DL);
+    if (fdl_header.sa & FDL_ADDRESS_EXT)
+        put_isr(fdl_req.ssap);
+    if (fdl_header.da & FDL_ADDRESS_EXT)
+        put_isr(fdl_req.dsap);
+    at += room->octets[0];
+    *at++ = sum;
+    *at = FDL_ED;
 }

@@ -122,29 +122,33 @@ uint16_t fma_count(const uint16_t XDATA *count)
 
 uint8_t fma_read_value(uint8_t variable, uint16_t XDATA *value)
 {
-    if (phy_variable_of(variable) != PHY_VARIABLES) {
-        *value = phy_read_value(phy_variable_of(variable));
-        return FMA_OK;
-    }
+    uint16_t now;
+
     switch (variable) {
     case FMA_TS:
-        *value = fdl_ts;
-        return FMA_OK;
+        now = fdl_ts;
+        break;
     case FMA_T_SL:
-        *value = t_sl;
-        return FMA_OK;
+        now = t_sl;
+        break;
     case FMA_MIN_T_SDR:
-        *value = phy_min_t_sdr();
-        return FMA_OK;
+        now = phy_min_t_sdr();
+        break;
     case FMA_SD_COUNT:
-        *value = fma_count(&fdl_counters.sd_count);
-        return FMA_OK;
+        now = fma_count(&fdl_counters.sd_count);
+        break;
     case FMA_SD_ERROR_COUNT:
-        *value = fma_count(&fdl_counters.sd_error_count);
-        return FMA_OK;
+        now = fma_count(&fdl_counters.sd_error_count);
+        break;
     default:
-        return FMA_IV;
+        variable = phy_variable_of(variable);
+        if (variable == PHY_VARIABLES)
+            return FMA_IV;
+        now = phy_read_value(variable);
+        break;
     }
+    *value = now;
+    return FMA_OK;
 }
 
 static uint8_t ident_len;

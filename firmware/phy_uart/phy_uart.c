@@ -25,6 +25,7 @@ static const CODE struct phy_rate rates[PHY_BAUDS] = {
 };
 
 HOT volatile struct phy_rx phy_rx;
+HOT struct phy_tx phy_tx;
 
 /* Invariant: at most one of phy_rx.waiting and sending is set; but in the loop both may be, when we answer ourselves. */
 static HOT volatile struct {
@@ -35,8 +36,6 @@ static HOT volatile struct {
 static uint16_t t_syn_tbit;
 static hal_dur_t t_syn;
 static HOT hal_dur_t t_sdr;
-static const uint8_t XDATA *HOT answer;
-static HOT uint8_t answer_len;
 
 static uint8_t value_of[PHY_VARIABLES];
 static uint8_t min_t_sdr;
@@ -55,18 +54,13 @@ void phy_deaf_isr(void) IN_ISR
     phy_rx.left = 0;
 }
 
-bool phy_telegram_end_isr(void) IN_ISR
+/* With the transmitter disabled everything goes on as if the answer had been sent. */
+void phy_answer_isr(void) IN_ISR
 {
-    phy_rx.left = 0;
-    return phy_rx.untimed;
-}
-
-void phy_answer_isr(const uint8_t XDATA *frame, uint8_t n) IN_ISR
-{
-    if (!line.transmitter)
+    if (!line.transmitter) {
+        phy_done_ind_isr(true);
         return;
-    answer = frame;
-    answer_len = n;
+    }
     phy_rx.waiting = true;
     hal_silence(t_sdr);
 }
@@ -75,7 +69,7 @@ static void cancel_answer_isr(void) IN_ISR
 {
     phy_rx.waiting = false;
     hal_silence(t_syn);
-    phy_cancelled_ind_isr();
+    phy_done_ind_isr(false);
 }
 
 void line_octet_isr(uint8_t octet, uint8_t err) IN_ISR
@@ -101,9 +95,9 @@ void line_silence_isr(void) IN_ISR
     if (phy_rx.waiting) {
         phy_rx.waiting = false;
         line.sending = true;
-        if (value_of[PHY_LOOP] == PHY_DISABLED)
+        if (phy_rx.left && value_of[PHY_LOOP] == PHY_DISABLED)
             phy_rx.left = 0; /* what is heard now is not for us */
-        hal_send(answer, answer_len);
+        hal_send(phy_tx.at, phy_tx.len);
     } else if (!line.sending) {
         phy_syn_ind_isr();
     }
@@ -116,6 +110,7 @@ void line_sent_isr(void) IN_ISR
         return; /* the line was closed meanwhile */
     line.sending = false;
     hal_silence(t_syn);
+    phy_done_ind_isr(true);
     if (phy_rx.untimed)
         phy_syn_ind_isr();
 }

@@ -71,7 +71,7 @@ void phy_event_ind(uint8_t variable, uint8_t value);
 
 /* Where the receiver is in the chunk. left == 0: deaf, octets are dropped until someone asks for more. A port may do
  * an octet's work on this struct itself where line_octet_isr() costs too much, and need not call it at all while the
- * receiver is deaf and no answer waits.
+ * receiver is deaf and no answer waits. When a chunk is complete the receiver is deaf.
  * Invariant: at[0..left-1] may be written. */
 struct phy_rx {
     uint8_t XDATA *at; /* next octet goes here                             */
@@ -88,18 +88,22 @@ void phy_gather_isr(uint8_t n) IN_ISR;
 /* What was gathered is of no more interest: hear nothing until the next T_SYN of silence. */
 void phy_deaf_isr(void) IN_ISR;
 
-/* A telegram has ended. True: another one may follow at once, because this line cannot show silence (a pty): the
- * caller gathers its start. False: the receiver is deaf until T_SYN. */
-bool phy_telegram_end_isr(void) IN_ISR;
+/* The answer: at[0..len-1], len 1..255. The layer above sets it beforehand, so that nothing is left to be done when
+ * the request ends, and changes neither it nor the octets from phy_answer_isr() until phy_done_ind_isr(). */
+struct phy_tx {
+    const uint8_t XDATA *at;
+    uint8_t len;
+};
+extern HOT struct phy_tx phy_tx;
 
-/* Send frame[0..n-1], n 1..255, when min_T_SDR is over. frame must stay until the next telegram. An octet heard
- * before that cancels it: someone else is talking. */
-void phy_answer_isr(const uint8_t XDATA *frame, uint8_t n) IN_ISR;
+/* Send phy_tx when min_T_SDR is over. An octet heard before that cancels it: someone else is talking. */
+void phy_answer_isr(void) IN_ISR;
 
 /* Implemented by the layer above (fdl_rx). */
 void phy_chunk_ind_isr(void) IN_ISR;           /* the octets asked for are there                              */
 void phy_syn_ind_isr(void) IN_ISR;             /* T_SYN of silence: what comes next is the start of a telegram */
 void phy_fault_ind_isr(uint8_t err) IN_ISR;    /* octet with HAL_ERR_*; the receiver is deaf until T_SYN       */
-void phy_cancelled_ind_isr(void) IN_ISR;       /* an answer was not sent: the line was not silent              */
+void phy_done_ind_isr(bool sent) IN_ISR;       /* the answer is out, or will not go out: the line was not silent. Does
+                                                * not come when main has opened the line anew or reset PHY meanwhile */
 
 #endif

@@ -1,0 +1,313 @@
+/* The plan: what is done with a telegram when it turns out to be good, made while the rest of it comes in.
+ *
+ * Layer    fdl_rx -> [fdl_plan] -> fdl
+ * Context  interrupt; main makes the plan anew, locked, where it changes what it was made from
+ * Source   EN 50170-2 part 4: addresses 4.7.3, FC 4.7.4, answers of the responder 4.1.3; spec A3, A4
+ */
+#include "fdl/fdl_priv.h"
+#include "phy_uart/phy_uart.h"
+
+#define EXT_UNKNOWN 0xC0u /* further extension, region or segment address: not for a station without them */
+
+HOT struct fdl_plan fdl_plan;
+HOT struct fdl_req fdl_req;
+HOT uint8_t fdl_ts;
+IDATA uint8_t fdl_others;
+IDATA uint8_t fdl_watched;
+
+/* Functions other than these are unknown to a responder and get no answer (our choice: 7, MSRD, and the clock
+ * functions belong to DP-V2). */
+const CODE uint8_t fdl_functions[FDL_FC_FUNCTION + 1u] = {
+    [FDL_SDA_LOW] = FDL_SDA,       [FDL_SDA_HIGH] = FDL_SDA | FDL_IS_HIGH,
+    [FDL_SDN_LOW] = FDL_SDN,       [FDL_SDN_HIGH] = FDL_SDN | FDL_IS_HIGH,
+    [FDL_SRD_LOW] = FDL_SRD,       [FDL_SRD_HIGH] = FDL_SRD | FDL_IS_HIGH,
+    [FDL_STATUS] = FDL_NUMBERLESS, [FDL_IDENT] = FDL_NUMBERLESS,
+    [FDL_LSAP_STATUS] = FDL_NUMBERLESS,
+};
+
+/* ---- the answer ------------------------------------------------------------------------------------------ */
+
+/* Has the reply been answering somebody else, or another SAP? Then its frames are nobody's. */
+static void readdress_isr(struct fdl_reply PAGED *reply) IN_ISR
+{
+    uint8_t dsap = fdl_req.dsap | fdl_req.sd3;
+
+    if (reply->da == fdl_header.da && reply->sa == fdl_header.sa && reply->dsap == dsap && reply->ssap == fdl_req.ssap)
+        return;
+    reply->da = fdl_header.da;
+    reply->sa = fdl_header.sa;
+    reply->dsap = dsap;
+    reply->ssap = fdl_req.ssap;
+    fdl_void_frames_isr(reply);
+}
+
+static void refuse_isr(uint8_t function) IN_ISR
+{
+    fdl_plan.refusal = function;
+    fdl_tx_fixed_isr(function);
+}
+
+/* No L_sdu: an SD1 says "diagnosis pending" where an SC could not (spec A3; facts 3.9); SC is "no reply data". */
+static void empty_isr(void) IN_ISR
+{
+    if (fdl_plan.is & FDL_HIGH)
+        fdl_tx_fixed_isr(FDL_DH);
+    else
+        fdl_tx_short_isr();
+}
+
+/* There is no frame in the room that is to be sent. The room that holds the answer kept for a retry is not written to
+ * before the request is known to be good. */
+static void no_frame_isr(struct fdl_room PAGED *room) IN_ISR
+{
+    struct fdl_reply PAGED *reply = fdl_req.reply;
+    const uint8_t len = room->octets[0];
+
+    if (len == 0)
+        empty_isr();
+    else if ((uint8_t)(fdl_header.len - fdl_req.len) > FDL_LE_MAX - len)
+        refuse_isr(FDL_UE); /* our choice: asked with SAPs, they leave no room for so many data */
+    else if (room == reply->sent && fdl_last.reply == reply)
+        fdl_plan.late = true;
+    else
+        fdl_tx_build_isr(room);
+}
+
+/* An SRD, Ident or LSAP status is answered from fdl_req.reply. */
+static void reply_isr(void) IN_ISR
+{
+    struct fdl_reply PAGED *reply = fdl_req.reply;
+    struct fdl_room PAGED *room = reply->sent;
+
+    fdl_plan.late = false;
+    fdl_plan.is = reply->is;
+    if (!(fdl_plan.is & FDL_VALID)) {
+        fdl_plan.is = 0;
+        fdl_tx_short_isr();
+        return;
+    }
+    if (fdl_plan.is & FDL_HOLD)
+        fdl_plan.is &= (uint8_t)~FDL_FRESH;
+    if (fdl_plan.is & FDL_FRESH)
+        room = reply->ready;
+    if (!room->frame_len) {
+        no_frame_isr(room);
+        if (!room->frame_len)
+            return;
+    }
+    phy_tx.len = room->frame_len;
+    phy_tx.at = room->octets + room->octets[2];
+}
+
+/* ---- the decision ---------------------------------------------------------------------------------------- */
+
+/* What the SAP's row says -> FDL_OK or the refusal. */
+static uint8_t decide_isr(void) IN_ISR
+{
+    struct fdl_sap PAGED *row = fdl_sap_row_isr(fdl_req.dsap);
+
+    if (!row || !(row->services & fdl_req.service))
+        return FDL_RS;
+    if (row->access != FDL_ALL && row->access != fdl_req.sa)
+        return FDL_RS;
+    if (fdl_header.len > FDL_BODY_MAX || fdl_req.len > row->max_len)
+        return FDL_RR; /* our choice: the L_sdu is longer than the resource activated for it */
+    if (fdl_req.service == FDL_SRD)
+        fdl_plan.row_reply = row->reply;
+    fdl_plan.row_handling = row->handling;
+    return FDL_OK;
+}
+
+/* FDL status, Ident and LSAP status: not numbered, they leave the FCB alone. */
+static uint8_t status_isr(void) IN_ISR
+{
+    uint8_t function = fdl_header.fc & FDL_FC_FUNCTION;
+
+    if (function == FDL_STATUS)
+        return FDL_OK;
+    if (function == FDL_IDENT)
+        fdl_plan.row_reply = fdl_ident_reply_isr();
+    else
+        fdl_plan.row_reply = fdl_lsap_reply_isr();
+    return fdl_plan.row_reply ? FDL_OK : FDL_RS;
+}
+
+/* The rest of the decision: what may be another one each time. */
+static uint8_t settle_isr(void) IN_ISR
+{
+    fdl_req.reply = fdl_plan.row_reply;
+    fdl_plan.handling = fdl_plan.row_handling;
+    if (fdl_plan.handling == FDL_TO_ISR)
+        return fdl_ask_isr();
+    if (fdl_plan.handling == FDL_TO_MAIN && !fdl_box_is_free_isr()) {
+        fdl_plan.handling = FDL_ANSWER_ONLY;
+        return FDL_RR;
+    }
+    return fdl_plan.result;
+}
+
+static void answer_isr(void) IN_ISR
+{
+    const uint8_t result = settle_isr();
+
+    fdl_plan.stage = FDL_PLANNED;
+    fdl_plan.refusal = FDL_OK;
+    fdl_plan.is = 0;
+    fdl_plan.late = false;
+    phy_tx.len = 0;
+    if (fdl_req.service == FDL_SDN)
+        return;
+    if (result != FDL_OK) {
+        fdl_req.reply = 0;
+        refuse_isr(result);
+    } else if (fdl_req.reply) {
+        readdress_isr(fdl_req.reply);
+        reply_isr();
+    } else if (fdl_req.service == FDL_NUMBERLESS) {
+        fdl_tx_status_isr();
+    } else {
+        fdl_tx_short_isr();
+    }
+}
+
+static void plan_isr(void) IN_ISR
+{
+    fdl_plan.row_reply = 0;
+    fdl_plan.row_handling = FDL_ANSWER_ONLY;
+    if (fdl_req.service == FDL_NUMBERLESS)
+        fdl_plan.result = status_isr();
+    else
+        fdl_plan.result = decide_isr();
+    answer_isr();
+}
+
+void fdl_replan_isr(struct fdl_reply PAGED *reply) IN_ISR
+{
+    if (!reply)
+        fdl_plan.made = 0;
+    if (fdl_plan.stage != FDL_PLANNED)
+        return;
+    if (!reply)
+        plan_isr();
+    else if (reply == fdl_req.reply && !fdl_plan.refusal)
+        reply_isr();
+}
+
+/* ---- telegram -------------------------------------------------------------------------------------------- */
+
+/* A header to this station or to all, not that of the last request to us. */
+static void read_header_isr(void) IN_ISR
+{
+    fdl_req.sa = fdl_header.sa & 0x7Fu;
+    fdl_req.service = fdl_functions[fdl_header.fc & FDL_FC_FUNCTION] & (uint8_t)~FDL_IS_HIGH;
+    fdl_req.len = (uint8_t)(fdl_header.len - 3u);
+    fdl_req.dsap = FDL_SAP_NIL;
+    fdl_req.ssap = FDL_SAP_NIL;
+    if ((fdl_header.da & 0x7Fu) == FDL_BROADCAST) {
+        fdl_plan.hears = FDL_HEARD_ANY;
+        if (fdl_req.service != FDL_SDN)
+            fdl_req.service = 0;
+    } else {
+        fdl_plan.hears = FDL_HEARD_ANY | FDL_HEARD_OWN;
+        if (fdl_req.sa == fdl_watched)
+            fdl_plan.hears = FDL_HEARD_ANY | FDL_HEARD_OWN | FDL_HEARD_OWNER;
+    }
+    if ((fdl_header.fc & FDL_FC_RESERVED) || fdl_req.sa == FDL_BROADCAST)
+        fdl_req.service = 0;
+}
+
+static uint8_t sap_isr(uint8_t sap) IN_ISR
+{
+    fdl_req.len--;
+    if (sap & EXT_UNKNOWN)
+        fdl_req.service = 0;
+    return sap;
+}
+
+/* [DAE] [SAE] */
+static void read_saps_isr(void) IN_ISR
+{
+    uint8_t second = fdl_header.more[0];
+
+    if (fdl_header.da & FDL_ADDRESS_EXT) {
+        fdl_req.dsap = sap_isr(second);
+        second = fdl_header.more[1];
+    }
+    if (fdl_header.sa & FDL_ADDRESS_EXT)
+        fdl_req.ssap = sap_isr(second);
+    if (fdl_req.len > FDL_LE_MAX) /* below 0: the SAPs are not there */
+        fdl_req.service = 0;
+}
+
+/* All is known. */
+static void make_isr(void) IN_ISR
+{
+    fdl_plan.stage = FDL_UNKNOWN;
+    if (fdl_req.service == 0)
+        return;
+    plan_isr();
+    if (!fdl_req.sd3)
+        fdl_plan.made = fdl_header.len;
+}
+
+static HOT uint8_t da; /* of the telegram coming in; fdl_header has them once it is for us */
+static HOT uint8_t sa;
+static HOT uint8_t fc;
+
+uint8_t fdl_header_isr(void) IN_ISR
+{
+    uint8_t to;
+
+    da = fdl_rx_buf[FDL_BODY];
+    sa = fdl_rx_buf[FDL_BODY + 1u];
+    fc = fdl_rx_buf[FDL_BODY + 2u];
+    fdl_plan.same = false;
+    if (da == fdl_header.da && sa == fdl_header.sa && !((fc ^ fdl_header.fc) & (uint8_t)~FDL_FC_FCB) &&
+        fdl_plan.made == fdl_header.len) {
+        fdl_plan.same = true;
+    } else {
+        to = da & 0x7Fu;
+        fdl_plan.stage = FDL_OTHERS;
+        if (to != fdl_ts && to != FDL_BROADCAST)
+            return fdl_others;
+        if (!(fc & FDL_FC_REQUEST))
+            return FDL_TAKE;
+        fdl_header.da = da;
+        fdl_header.sa = sa;
+    }
+    fdl_header.fc = fc;
+    fdl_plan.again = 0;
+    if (fc == fdl_last.fc)
+        fdl_plan.again = fc & FDL_FC_FCV;
+    fdl_plan.stage = FDL_UNKNOWN;
+    if (((da | sa) & FDL_ADDRESS_EXT) && fdl_header.len != 3u)
+        return FDL_SHOW_SAPS;
+    if (fdl_plan.same) {
+        answer_isr();
+        return FDL_TAKE;
+    }
+    fdl_plan.made = 0;
+    read_header_isr();
+    if ((da | sa) & FDL_ADDRESS_EXT)
+        fdl_req.service = 0; /* and no SAPs */
+    make_isr();
+    return FDL_TAKE;
+}
+
+void fdl_saps_isr(void) IN_ISR
+{
+    const uint8_t XDATA *more = fdl_rx_buf + (FDL_BODY + 3u);
+    const uint8_t first = more[0];
+    const uint8_t second = more[1];
+
+    if (fdl_plan.same && first == fdl_header.more[0] && second == fdl_header.more[1]) {
+        answer_isr();
+        return;
+    }
+    fdl_plan.made = 0;
+    fdl_header.more[0] = first;
+    fdl_header.more[1] = second;
+    read_header_isr();
+    read_saps_isr();
+    make_isr();
+}
