@@ -78,7 +78,7 @@ void ddlm_diag_update(void)
 void ddlm_diag_ask_isr(void) IN_ISR
 {
     news = false;
-    if (fdl_waiting_isr(SAP_SET_PRM) || fdl_waiting_isr(SAP_CHK_CFG))
+    if (fdl_box_waits_isr() && (fdl_waiting_isr(SAP_SET_PRM) || fdl_waiting_isr(SAP_CHK_CFG)))
         fdl_req.reply = &pending_reply;
 }
 

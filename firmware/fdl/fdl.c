@@ -88,6 +88,11 @@ static void box_isr(void) IN_ISR
     box_in = next_box_isr(box_in);
 }
 
+bool fdl_box_waits_isr(void) IN_ISR
+{
+    return box_out != box_in;
+}
+
 bool fdl_waiting_isr(uint8_t dsap) IN_ISR
 {
     uint8_t i;

@@ -243,7 +243,10 @@ uint8_t fdl_ask_isr(void) IN_ISR;
  * once for each request, when its answer is out or will not go out; not if its SAP has been deactivated since. isr. */
 void fdl_ind_isr(void) IN_ISR;
 
-/* Is there an indication for SAP dsap, from the station of fdl_req, that the main loop has not dealt with yet? isr. */
+/* Is there any indication that the main loop has not dealt with yet? isr. */
+bool fdl_box_waits_isr(void) IN_ISR;
+
+/* Is there one for SAP dsap, from the station of fdl_req? isr. */
 bool fdl_waiting_isr(uint8_t dsap) IN_ISR;
 
 /* Keep the L_sdu of fdl_req beyond this interrupt: FDL takes `exchange`, a buffer got from this function before, for

@@ -161,7 +161,8 @@ static void answer_isr(void) IN_ISR
         fdl_req.reply = 0;
         refuse_isr(result);
     } else if (fdl_req.reply) {
-        readdress_isr(fdl_req.reply);
+        if (!fdl_plan.same || fdl_req.reply != fdl_plan.row_reply)
+            readdress_isr(fdl_req.reply);
         reply_isr();
     } else if (fdl_req.service == FDL_NUMBERLESS) {
         fdl_tx_status_isr();
@@ -172,6 +173,7 @@ static void answer_isr(void) IN_ISR
 
 static void plan_isr(void) IN_ISR
 {
+    fdl_plan.same = false;
     fdl_plan.row_reply = 0;
     fdl_plan.row_handling = FDL_ANSWER_ONLY;
     if (fdl_req.service == FDL_NUMBERLESS)

@@ -259,7 +259,10 @@ void service_isr(void) __interrupt(2) __using(1) __naked
         push dph
         push psw
         mov psw,#0x08
-        jbc _begun,00022$
+        jnb _begun,00022$
+        clr _begun
+        ljmp 00017$
+    00022$:
         jnb _full,00016$
         setb _ES
         clr _full
@@ -274,7 +277,13 @@ void service_isr(void) __interrupt(2) __using(1) __naked
         mov r6,(_phy_rx + 3)
         mov r0,_taken
     00002$:
-        jb _IE1,00010$          ; a silence or a bad octet: not past it
+        jnb _IE1,00030$         ; a silence or a bad octet: not past it
+        jb _bad,00010$
+        jnb _due,00010$
+        mov a,r0
+        cjne a,_mark,00003$
+        sjmp 00010$
+    00030$:
         mov a,r0
         cjne a,_in,00003$
         jb _burst,00004$
@@ -315,6 +324,8 @@ void service_isr(void) __interrupt(2) __using(1) __naked
         cjne a,_in,00012$
         clr _due
         lcall _line_silence_isr
+        jnb _sending,00012$
+        lcall _sent_isr         ; before the first octet is out
         sjmp 00012$
     00016$:
         jb _sending,00012$
@@ -328,8 +339,6 @@ void service_isr(void) __interrupt(2) __using(1) __naked
         pop b
         pop acc
         reti
-    00022$:
-        ljmp 00017$
     00004$:                     ; straight from the receiver
         clr _ES
         cjne a,_in,00009$
