@@ -191,6 +191,7 @@ help:
 	@echo "make run PROTOCOL=dp     live demonstration: a station and a master on a simulated bus (dp, modbus, hdlc)"
 	@echo "make run STATIONS=8      so many stations and one master on a segment of pseudo terminals (1 to 14)"
 	@echo "make run BOARD=com86     the same with a simulated board as the station (com86, lm3s6965evb, rv32virt, 87c51fb)"
+	@echo "make run BOARD=87c51fb PROTOCOL=modbus  the inverter on the simulated 8051, libmodbus as its client"
 	@echo "make flash BOARD=bluepill  program a board (bluepill, 87c51fb, stc89c58rd with PORT=/dev/...)"
 	@echo "make check               unit tests, 8051 and Cortex-M compile, static checks: about a minute"
 	@echo "make asan                the unit tests again, by clang with AddressSanitizer and UBSan"

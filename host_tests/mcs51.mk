@@ -36,8 +36,8 @@ bench-s51: build/87c51fb/fieldling-dp.ihx
 	@echo "DP-TEST01 on a 12 MHz 87C51FB, simulated machine cycles:"
 	@python3 host_tests/s51_dp.py
 
-run-board-87c51fb: build/posix/fieldling-master build/87c51fb/fieldling-dp.ihx
-	@python3 host_tests/run_board.py 87c51fb
+run-board-87c51fb: build/posix/fieldling-master build/87c51fb/fieldling-$(PROTOCOL).ihx
+	@python3 host_tests/run_board.py 87c51fb 10 $(PROTOCOL)
 
 # make size and make check: every image that image.mk builds keeps interrupts apart and is within its board's budget.txt.
 # What went into build/BOARD/IMAGE.ihx lies in the folder build/BOARD/IMAGE.

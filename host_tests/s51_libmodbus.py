@@ -10,7 +10,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from qemu_modbus import OUTPUT_FREQ, RUN, SET_POINT, TRIES, Libmodbus
+from libmodbus import OUTPUT_FREQ, RUN, SET_POINT, TRIES, Libmodbus
 from station import Skip, expect, run_tests
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -22,19 +22,13 @@ N_9600 = 39
 SECONDS = 5  # a client waits for an answer
 
 
-def patient(pty):
-    client = Libmodbus(pty)
-    client.lib.modbus_set_response_timeout(client.ctx, SECONDS, 0)
-    return client
-
-
 def run(spoilt=None):
     """Registers and coils, written and read back. -> the chip, when it has ended"""
     with ModbusChipOnPty(IMAGE, N_9600) as chip:
         if spoilt:
             chip.spoil(spoilt)
         chip.start()
-        with patient(chip.pty) as client:
+        with Libmodbus(chip.pty, SECONDS) as client:
             expect("defaults", client.holding(SET_POINT, 3), [5000, 0, 6000])
             for n in range(20):
                 client.write(SET_POINT, 100 + n, 0)
@@ -77,6 +71,13 @@ def test_mbpoll_writes_and_reads():
         expect("written", "Written 1 reference" in mbpoll(chip.pty, value="1234"), True)
         said = mbpoll(chip.pty, count="3")
         expect(said, re.findall(r"\[\d+\]:\s*(\d+)", said), ["1234", "0", "6000"])
+
+
+def test_make_run_shows_the_drive_run_up_and_down():
+    done = subprocess.run([sys.executable, "host_tests/run_board.py", "87c51fb", "60", "modbus"], text=True, timeout=120,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False)
+    shown = [float(f) for f in re.findall(r"output +([0-9.]+) Hz", done.stdout)]
+    expect(done.stdout, (done.returncode, max(shown), shown[-1]), (0, 30.0, 0.0))
 
 
 if __name__ == "__main__":
