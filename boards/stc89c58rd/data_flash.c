@@ -2,7 +2,7 @@
  *
  * A log of records in nv_log.h's form: index, value, ~value, ~index; a change costs a record, and the sector is erased only
  * when the log is full. Power lost while a record is written leaves the old value or the new one; while a full log is
- * renewed, cells may be lost. nv_log.c itself would take 22 octets of directly addressed RAM, of 7 that are left.
+ * renewed, cells may be lost. nv_log.c itself would take 22 octets of directly addressed RAM: the DP image has no room.
  *
  * Main only, and no lock: the core stands still while an operation lasts (55 us for an octet, some 20 ms for an erase:
  * data sheet) and goes on where it was. The two writes of the trigger must follow each other.
