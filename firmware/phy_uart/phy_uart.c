@@ -44,16 +44,6 @@ static uint8_t min_t_sdr;
 
 /* ---- octets ---------------------------------------------------------------------------------------------- */
 
-void phy_gather_isr(uint8_t n) IN_ISR
-{
-    phy_rx.left = n;
-}
-
-void phy_deaf_isr(void) IN_ISR
-{
-    phy_rx.left = 0;
-}
-
 /* With the transmitter disabled everything goes on as if the answer had been sent. */
 void phy_answer_isr(void) IN_ISR
 {

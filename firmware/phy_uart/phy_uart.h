@@ -69,7 +69,8 @@ void phy_event_ind(uint8_t variable, uint8_t value);
 
 /* ---- octets, isr ---------------------------------------------------------------------------------------- */
 
-/* Where the receiver is in the chunk. left == 0: deaf, octets are dropped until someone asks for more. A port may do
+/* Where the receiver is in the chunk. The layer above sets at and left (1..255) to ask for octets, in an upcall.
+ * left == 0: deaf, octets are dropped until it asks for more. A port may do
  * an octet's work on this struct itself where line_octet_isr() costs too much, and need not call it at all while the
  * receiver is deaf and no answer waits. When a chunk is complete the receiver is deaf.
  * Invariant: at[0..left-1] may be written. */
@@ -81,12 +82,6 @@ struct phy_rx {
     uint8_t untimed;   /* the line cannot show silence (a pty)             */
 };
 extern HOT volatile struct phy_rx phy_rx;
-
-/* Ask for the next n (1..255) octets. */
-void phy_gather_isr(uint8_t n) IN_ISR;
-
-/* What was gathered is of no more interest: hear nothing until the next T_SYN of silence. */
-void phy_deaf_isr(void) IN_ISR;
 
 /* The answer: at[0..len-1], len 1..255. The layer above sets it beforehand, so that nothing is left to be done when
  * the request ends, and changes neither it nor the octets from phy_answer_isr() until phy_done_ind_isr(). */
