@@ -105,6 +105,19 @@ static void a_sap_deactivated_before_the_end_is_not_active(void)
     TEST_ASSERT_EQUAL(0, isr.count);
 }
 
+/* Header as before, so its plan is still there when the SAPs come: 88 + 82 + 5D + 0A + 3E + 01 = B0, 7D: D0. */
+static void a_sap_deactivated_between_a_known_header_and_its_saps_is_not_active(void)
+{
+    unit_srd_sap(FDL_TO_ISR);
+    request("68 06 06 68 88 82 5D 0A 3E 01 B0 16");
+    ANSWERED("E5");
+    begin("68 06 06 68 88 82 7D");
+    fma_sap_deactivate(10);
+    end("0A 3E 01 D0 16");
+    ANSWERED("10 02 08 03 0D 16");
+    TEST_ASSERT_EQUAL(1, isr.count);
+}
+
 static void a_sap_activated_before_the_end_is_active(void)
 {
     begin("68 06 06 68 88 82 4D 0A 3E");
@@ -229,6 +242,7 @@ int main(void)
     RUN_TEST(data_written_after_the_end_are_in_the_next_answer_whole);
     RUN_TEST(a_request_is_executed_when_its_answer_is_out);
     RUN_TEST(a_sap_deactivated_before_the_end_is_not_active);
+    RUN_TEST(a_sap_deactivated_between_a_known_header_and_its_saps_is_not_active);
     RUN_TEST(a_sap_activated_before_the_end_is_active);
     RUN_TEST(a_request_answered_and_not_yet_executed_goes_with_its_sap);
     RUN_TEST(a_line_opened_anew_drops_the_request_and_its_repetition_is_new);

@@ -185,8 +185,10 @@ static void plan_isr(void) IN_ISR
 
 void fdl_replan_isr(struct fdl_reply PAGED *reply) IN_ISR
 {
-    if (!reply)
+    if (!reply) {
         fdl_plan.made = 0;
+        fdl_plan.same = false; /* nor is it when only the SAPs are still to come */
+    }
     if (fdl_plan.stage != FDL_PLANNED)
         return;
     if (!reply)
