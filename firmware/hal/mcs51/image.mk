@@ -20,7 +20,7 @@ MCS51_MODBUS = $(addprefix firmware/hal/mcs51/,octet.c divide.c) $(filter-out bo
 MCS51_MODBUS_CFLAGS = -DMB_CONFIG='"inverter_mb.h"' -DMB_WITH_LUMPS=0 -DCRC16_ENTRIES=512 -DINV_STEP_MS=50 \
                       -DMIN_OCTET_CYCLES=400u -DPOLLED_BIT_CYCLES=1u --disable-warning 110 --disable-warning 126
 
-# C to assembly (build/BOARD/NAME.c/), functions nobody calls left out (build/BOARD/NAME/), then assembled and linked.
+# C to assembly (build/BOARD/NAME.c/), functions nobody calls left out (build/BOARD/NAME/), then assembled and linked (link.sh).
 ifndef mcs51_image
 define mcs51_image # BOARD NAME
 $$(call remember,build/$1/$2.c/options,$$(call mcs51_options,$1,$2))
