@@ -235,6 +235,23 @@ class Image:
             return OTHER_CODES.get(op, "moves sp" if moves_sp else "other"), "", length
         return name, self.names.get(target, f"{target:04X}$"), length
 
+    def returns(self, at):
+        """Addresses of each ret and reti that code from this address on may end with."""
+        found, work = set(), [at]
+        while work:
+            at = work.pop()
+            if at in found:
+                continue
+            found.add(at)
+            op, operands, length = self._operation(at)
+            if op == "jmp":
+                raise ValueError(f"{self.ihx}: where the jump at {at:04X} goes cannot be told")
+            if op not in RETURNS | JUMPS:
+                work.append(at + length)
+            if op in JUMPS | BRANCHES:
+                work.append(int(operands[:-1], 16) if operands.endswith("$") else self.code[operands])
+        return sorted(at for at in found if self._operation(at)[0] in RETURNS)
+
     def decode(self, name):
         """A routine of the library, by following it from its first instruction."""
         found, work = {}, [self.code[name]]

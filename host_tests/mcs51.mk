@@ -34,7 +34,7 @@ bench-s51-modbus: build/87c51fb/fieldling-modbus.ihx build/87c51fb/fieldling-mod
 BENCHES += bench-s51
 bench-s51: build/87c51fb/fieldling-dp.ihx
 	@echo "DP-TEST01 on a 12 MHz 87C51FB, simulated machine cycles:"
-	@python3 host_tests/s51_dp.py
+	@python3 host_tests/s51_dp.py --figures
 
 run-board-87c51fb: build/posix/fieldling-master build/87c51fb/fieldling-$(PROTOCOL).ihx
 	@python3 host_tests/run_board.py 87c51fb 10 $(PROTOCOL)

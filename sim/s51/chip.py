@@ -21,6 +21,11 @@ CLOCKS = 12  # a machine cycle
 PARITY = ("^".join(f"(uart0_received_char>>{n})" for n in range(8))).join(("(", ")&1"))
 RI_BIT, P3_2_BIT, SBUF = 0x98, 0xB2, 0x99
 DRIVER = "(((P3>>2)&1)^1)"  # is it on? A port is high in reset: an inverter makes that the driver off
+# What is noted: a line with 10000 times one of these and a value, and a line with the time in clocks. INT: an interrupt
+# is entered or left. AT: now. Then, where asked for, BUSY and the clocks spent in interrupts.
+KINDS = {81: "RI", 82: "TX", 83: "DE", 84: "T0", 88: "INT", 89: "AT"}
+BUSY = "expr /d 800000;expr /d sim_isr_ticks"
+ENTRY, RETI = 4, 2  # machine cycles on the real part: its call of the vector and the jump there; the return
 # struct fdl_counters, 16 bits each: firmware/fdl/fdl.h
 FDL_COUNTERS = ("sd_count sd_error_count parity overrun gap format checksum foreign requests retries answers cancelled "
                 "refused").split()
@@ -45,26 +50,40 @@ def arrivals(octets):
     """Times at which RI was set. One that the simulator has not seen was some 12 cycles before it was cleared again."""
     found, waiting = [], False
     for kind, value, t in octets:
-        if kind == "RI" and value == 1:
-            found.append(t)
-        elif kind == "RI" and not waiting:
-            found.append(t - 12)
-        elif kind == "TX":
+        if kind == "TX":
             break
-        waiting = kind == "RI" and value == 1
+        if kind == "RI":
+            if value or not waiting:
+                found.append(t if value else t - 12)
+            waiting = value == 1
+    return found
+
+
+def stays(log):
+    """How long each interrupt took that watch_interrupt() has noted. An address is passed over when it comes right after
+    an event: one that has not been seen to end did so then."""
+    found, entered, last = [], None, 0
+    for kind, value, t in log:
+        if kind == "INT":
+            if entered is not None:
+                found.append((last if value else t) - entered + ENTRY + RETI)
+            entered = t if value else None
+        last = t
     return found
 
 
 class Exchange:
     """What happened between a request and the silence after it; times in machine cycles."""
 
-    def __init__(self, octets, answer):
+    def __init__(self, log, answer, busy=()):
         self.answer = answer
-        self.arrived = arrivals(octets)
-        self.fetched = [t for kind, value, t in octets if kind == "RI" and value == 0]
-        self.written = [t for kind, _, t in octets if kind == "TX"]
-        self.parity = [value for kind, value, _ in octets if kind == "TX"]
-        self.driver = [(t, value) for kind, value, t in octets if kind == "DE"]
+        self.arrived = arrivals(log)
+        self.fetched = [t for kind, value, t in log if kind == "RI" and value == 0]
+        self.written = [t for kind, _, t in log if kind == "TX"]
+        self.parity = [value for kind, value, _ in log if kind == "TX"]
+        self.driver = [(t, value) for kind, value, t in log if kind == "DE"]
+        self.stays = stays([entry for entry in log if not self.written or entry[2] < self.written[0]])
+        self.busy = busy  # (t, cycles spent in interrupts since the start)
 
     @property
     def turn(self):
@@ -72,13 +91,35 @@ class Exchange:
         before = [t for t in self.arrived if t < self.written[0]]
         return self.written[0] - before[-1]
 
+    def waits(self):
+        """From each octet's RI to its clearing: longer than an octet, and the next one is lost."""
+        return [b - a for a, b in zip(self.arrived, self.fetched)]
+
+    @property
+    def begin(self):
+        return self.busy[0][0]
+
+    @property
+    def end(self):
+        return self.busy[-1][0]
+
+    def spent(self, until):
+        """In interrupts, from before the request."""
+        return next(busy for t, busy in self.busy if t >= until) - self.busy[0][1]
+
+    def left(self):
+        """The part not spent in interrupts, from before the request to the silence after it or its answer."""
+        (begin, before), (end, after) = self.busy[0], self.busy[-1]
+        return 1 - (after - before) / (end - begin)
+
     def gaps(self, octet_cycles):
         """Between the end of each octet sent and the write of the next."""
         return [b - a - octet_cycles for a, b in zip(self.written, self.written[1:])]
 
 
 class Chip:
-    def __init__(self, image, mhz=12, switches=5):
+    def __init__(self, image, mhz=12, switches=5, measured=False):
+        """measured: the time spent in interrupts is noted, too."""
         self.image, self.symbols = image, symbols(image)
         self.folder = tempfile.mkdtemp(prefix="s51-")
         self.to_chip, self.from_chip = (os.path.join(self.folder, name) for name in ("in", "out"))
@@ -90,14 +131,15 @@ class Chip:
         self.process = subprocess.Popen(
             ["s51", "-t", "52", "-X", f"{mhz}M", "-b", "-P", "-S", f"in={self.to_chip},out={self.from_chip}", image],
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, bufsize=0)
-        self.count, self.breaks, self.text, self.log = 0, 0, b"", []
+        self.count, self.breaks, self.text, self.log, self.busy = 0, 0, b"", [], []
+        self.stamp = f"expr /d sim_ticks;{BUSY}" if measured else "expr /d sim_ticks"
         self.command("uart0_check_often=1")
         self.command("var odd\nvar heard\nvar spoil\nvar every\nodd=0\nheard=0\nspoil=0\nevery=0xffffffff")
         self.watch(f"bits w 0x{RI_BIT:x}", f"heard=heard+RI;RB8=({PARITY})^odd^((heard==spoil)|((heard%every)==0));"
-                   "expr /d 810000+RI;expr /d sim_ticks")
+                   f"expr /d 810000+RI;{self.stamp}")
         # what is written while an interrupt is being entered goes unseen: the ninth bit is supplied again where SBUF is read
         self.watch(f"sfr r 0x{SBUF:x}", f"RB8=({PARITY})^((heard==spoil)|((heard%every)==0))")
-        self.watch(f"sfr w 0x{SBUF:x}", "expr /d 820000+TB8;expr /d sim_ticks")
+        self.watch(f"sfr w 0x{SBUF:x}", f"expr /d 820000+TB8;{self.stamp}")
         self.command(f"set mem sfr 0x90 0x{~switches & 0x7f | 0x80:x}")
 
     def close(self):
@@ -142,6 +184,11 @@ class Chip:
         self.watch(f"bits w 0x{P3_2_BIT:x}", f"expr /d 830000+{DRIVER};expr /d sim_ticks")
         return self.breaks
 
+    def watch_interrupt(self, handler, returns):
+        """Addresses: of what its vector jumps to, and of the reti that it may end with. Not while step() is used."""
+        for at, entered in ((handler, 1), *((at, 0) for at in returns)):
+            self.watch(f"0x{at:x}", f"expr /d 880000+{entered};expr /d sim_ticks")
+
     def break_at(self, event):
         """-> the breakpoint's number: they are counted, and not always told."""
         self.breaks += 1
@@ -158,10 +205,9 @@ class Chip:
 
     def run_to(self, label, seconds=60, times=1):
         """Run until the function label is entered, for the times-th time; what happened meanwhile is in self.log."""
-        address = self.symbols[label]
-        number = self.break_at(f"0x{address:x} {times}")
-        self.take_log(self.command("run", seconds))
-        self.command(f"delete {number}")
+        self.breaks += 1
+        self.take_log(self.command(f"break 0x{self.symbols[label]:x} {times}\nrun\ndelete {self.breaks}\n"
+                                   f"expr /d 890000;{self.stamp}", seconds))
 
     def spoil(self, number):
         """The number-th octet from now (1..) comes with wrong parity."""
@@ -173,12 +219,19 @@ class Chip:
 
     def step(self, instructions):
         """Nothing that is watched may happen meanwhile: it would turn the step into a run."""
-        self.take_log(self.command(f"step {instructions}"))
+        self.take_log(self.command(f"step {instructions}\nexpr /d 890000;{self.stamp}"))
+
+    def wait_until(self, cycle):
+        """Nearly, by steps: an instruction takes one or two cycles, four at most."""
+        while cycle - self.log[-1][2] > 50:
+            self.step(int(cycle - self.log[-1][2]) // 2)
 
     def take_log(self, text):
-        kinds = {81: "RI", 82: "TX", 83: "DE", 84: "T0"}
-        for code, ticks in re.findall(r"^(8[1-4]000[01])\n(\d+)$", text, re.M):
-            self.log.append((kinds[int(code) // 10000], int(code) % 10, int(ticks) / CLOCKS))
+        for code, value, ticks in re.findall(r"^(8[0-489])000([01])\n(\d+)$", text, re.M):
+            if code == "80":
+                self.busy.append((self.log[-1][2], int(ticks) / CLOCKS))
+            else:
+                self.log.append((KINDS[int(code)], int(value), int(ticks) / CLOCKS))
 
     def times(self):
         """(all, in interrupts) since the start, machine cycles."""
@@ -206,11 +259,11 @@ class Chip:
     def ask(self, request, idle=40):
         """Send request idle instructions from now, run until T_SYN of silence after it and its answer."""
         self.step(idle)
-        self.log = []
+        self.log, self.busy = [], self.busy[-1:]
         os.write(self.input, request)
         self.run_to("phy_syn_ind_isr")
         try:
             answer = os.read(self.output, 4096)
         except BlockingIOError:
             answer = b""
-        return Exchange(self.log, answer)
+        return Exchange(self.log, answer, self.busy)
