@@ -34,7 +34,7 @@ dp_image     = $(call image,$1,fieldling-dp,$($1_PORT) $(CONSOLE_DP),-DFIELDLING
 modbus_image = $(call image,$1,fieldling-modbus,$($1_PORT) $(CONSOLE_MODBUS),-DMB_CONFIG='"inverter_mb.h"',$(MODBUS_DEFAULTS))
 
 CONSOLE_MODBUS  = boards/common/main_modbus.c boards/common/line_console.c $(addprefix boards/common/inverter,.c _bind.c _store.c _modbus.c) \
-                   firmware/crc16.c $(wildcard firmware/modbus/mb_*.c)
+                   firmware/crc16.c firmware/crc16_append.c $(wildcard firmware/modbus/mb_*.c)
 MODBUS_DEFAULTS = $(wildcard firmware/modbus/default_*.c)
 
 # $(eval $(call cortexm_board,X,CPU,UART)): the options of a Cortex-M board with a linker script board.ld; UART is a folder

@@ -6,7 +6,7 @@
 
 static inline uint16_t get_u16be(const uint8_t XDATA *p)
 {
-    return (uint16_t)(((uint16_t)p[0] << 8) | p[1]);
+    return (uint16_t)(p[0] * 256u + p[1]);
 }
 
 static inline void put_u16be(uint8_t XDATA *p, uint16_t value)

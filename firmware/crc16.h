@@ -51,13 +51,16 @@ static inline uint16_t crc16_add(uint16_t crc, uint8_t octet)
 #error "CRC16_ENTRIES is 16, 256 or 512"
 #endif
 
+/* Put the CRC of octets[0..n-1], n = 1..255, behind them. In its own file, which a port may replace. main. */
+void crc16_append(uint8_t XDATA *octets, uint_fast8_t n);
+
 /* One more octet into a CRC that is kept in fast memory. Any context. */
 static inline void crc16_take(uint16_t HOT *crc, uint8_t octet)
 {
 #if CRC16_ENTRIES == 512
     uint8_t HOT *const half = (uint8_t HOT *)crc; /* low, high */
     octet = (uint8_t)(octet ^ half[0]);
-    half[0] = (uint8_t)(half[1] ^ crc16_low[octet]);
+    half[0] = (uint8_t)(crc16_low[octet] ^ half[1]);
     half[1] = crc16_high[octet];
 #else
     *crc = crc16_add(*crc, octet);

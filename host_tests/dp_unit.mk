@@ -59,12 +59,12 @@ $(foreach t,$(DP_UNIT_TESTS),$(eval $(call portable_test,$t,$(basename $(notdir 
 UNIT_TESTS += test_nv_log test_con_in test_crc16 test_crc16_small test_crc16_octets
 test_nv_log_SRC := firmware/hal/nv_log.c
 test_con_in_SRC := firmware/hal/con_in.c
-test_crc16_SRC  := firmware/crc16.c
+test_crc16_SRC  := firmware/crc16.c firmware/crc16_append.c
 test_crc16_small_MAIN   := host_tests/test_crc16.c
-test_crc16_small_SRC    := firmware/crc16.c
+test_crc16_small_SRC    := $(test_crc16_SRC)
 test_crc16_small_CFLAGS := -DCRC16_ENTRIES=16
 test_crc16_octets_MAIN   := host_tests/test_crc16.c
-test_crc16_octets_SRC    := firmware/crc16.c
+test_crc16_octets_SRC    := $(test_crc16_SRC)
 test_crc16_octets_CFLAGS := -DCRC16_ENTRIES=512
 $(eval $(call portable_test,test_nv_log,plain,$(test_nv_log_SRC)))
 $(eval $(call portable_test,test_con_in,plain,$(test_con_in_SRC)))

@@ -1,6 +1,6 @@
 # Modbus: unit tests in virtual time and on the fake port, the host station against foreign clients, figures.
 
-MB_STATION  = firmware/crc16.c $(wildcard firmware/modbus/mb_*.c)
+MB_STATION  = firmware/crc16.c firmware/crc16_append.c $(wildcard firmware/modbus/mb_*.c)
 MB_DEFAULTS = $(wildcard firmware/modbus/default_*.c)
 MB_FAKE     = host_tests/fake_hal.c host_tests/modbus_client_fake.c sim/modbus_frame.c
 

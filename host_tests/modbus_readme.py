@@ -61,7 +61,7 @@ def test_example_compiles_and_runs():
     (BUILD / "own.c").write_text(program.replace("int main(", "int own_main("))
     (BUILD / "main.c").write_text(MAIN)
     expect("lines of the example at most", len(program.strip().splitlines()) <= 42, True)
-    stack = ["firmware/crc16.c", *map(str, Path("firmware/modbus").glob("mb_*.c"))]
+    stack = ["firmware/crc16.c", "firmware/crc16_append.c", *map(str, Path("firmware/modbus").glob("mb_*.c"))]
     defaults = [str(p) for p in Path("firmware/modbus").glob("default_*.c")]
     port = [f"firmware/hal/posix/{name}.c" for name in ("hal_realtime", "line_pty", "line_tty", "nv_file", "con_stdio")]
     for source in defaults:

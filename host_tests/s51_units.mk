@@ -25,11 +25,15 @@ $(if $(s51_unit_set_$2),,$(eval $(call s51_unit_set,$2,$($1_PORTABLE_OPTIONS))))
 build/s51_units/$1.lib: $(patsubst %.c,build/s51_units/$2/%.rel,$($1_PORTABLE_DEFAULTS))
 	@rm -f $$@ && sdar -rc $$@ $$^
 build/s51_units/$1.ihx: $(patsubst %.c,build/s51_units/$2/%.rel,build/unity/unity.c host_tests/s51/unit_main.c \
-    $(or $($1_MAIN),host_tests/$1.c) $($1_PORTABLE_SRC)) $(if $($1_PORTABLE_DEFAULTS),build/s51_units/$1.lib)
+    $(or $($1_MAIN),host_tests/$1.c) $($1_PORTABLE_SRC:$($1_S51_NOT)=$($1_S51))) $(if $($1_PORTABLE_DEFAULTS),build/s51_units/$1.lib)
 	$$(call say,LD51,$$@)sdcc -mmcs51 --model-large --stack-auto $$(filter %.rel,$$^) $$(filter %.lib,$$^) -o $$@
 build/s51_units/$1.map: build/s51_units/$1.ihx ;
 BOARD_IMAGES += build/s51_units/$1.map
 endef
+# What the port of the 8051 has of its own.
+test_crc16_octets_S51_NOT := firmware/crc16_append.c
+test_crc16_octets_S51     := firmware/hal/mcs51/crc16_append.c
+
 # Not here, for they take minutes to simulate: 340 s of an inverter's drive, 70000 samples, and cells in the flash of 32-bit
 # parts, page by page.
 S51_PORTABLE := $(filter-out test_modbus_inverter test_remote_wrap test_nv_log,$(PORTABLE_TESTS))

@@ -86,7 +86,7 @@ SCRIPT_TESTS_ONCE += host_tests/flash.py
 STACK_CPUS     := cortex-m0 cortex-m3
 STACK_dp       := $(DP_ALL)
 STACK_dp_OPTIONS     := -DFIELDLING_CONFIG='"dp_test01.h"'
-STACK_modbus   := firmware/crc16.c $(wildcard firmware/modbus/*.c)
+STACK_modbus   := firmware/crc16.c firmware/crc16_append.c $(wildcard firmware/modbus/*.c)
 STACK_modbus_OPTIONS := -DMB_CONFIG='"inverter_mb.h"'
 define stack_objects # CPU,STACK
 stack-$1_CC := $(subst -mcpu=cortex-m3,-mcpu=$1,$(lm3s6965evb_CC))

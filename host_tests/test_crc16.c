@@ -2,6 +2,8 @@
 #include "crc16.h"
 #include "unity.h"
 
+#include <string.h>
+
 void setUp(void)
 {
 }
@@ -48,11 +50,50 @@ static void test_every_octet(void)
     }
 }
 
+static uint8_t XDATA frame[260];
+
+static void test_it_is_put_behind_the_octets_low_first(void)
+{
+    static const uint8_t CODE whole[] = {0x02, 0x07, 0x41, 0x12, 0xEE}; /* 6.2.2, as above */
+    unsigned at;
+    memset(frame, 0xEE, sizeof frame);
+    frame[0] = whole[0];
+    frame[1] = whole[1];
+    crc16_append(frame, 2);
+    for (at = 0; at < sizeof whole; at++)
+        TEST_ASSERT_EQUAL_HEX8(whole[at], frame[at]);
+}
+
+static void test_it_is_put_behind_one_octet(void)
+{
+    frame[0] = 0x00;
+    crc16_append(frame, 1);
+    TEST_ASSERT_EQUAL_HEX8(0x00, frame[0]);
+    TEST_ASSERT_EQUAL_HEX8(0xBF, frame[1]); /* FF00H through the polynomial eight times: 40BFH */
+    TEST_ASSERT_EQUAL_HEX8(0x40, frame[2]);
+}
+
+/* More than a page of memory, so that they lie over the edge of one. */
+static void test_it_is_put_behind_255_octets(void)
+{
+    unsigned at;
+    for (at = 0; at < sizeof frame; at++)
+        frame[at] = (uint8_t)(7u * at);
+    crc16_append(frame + 1, 255);
+    for (at = 0; at < sizeof frame; at++)
+        if (at != 256 && at != 257)
+            TEST_ASSERT_EQUAL_HEX8(7u * at & 0xFFu, frame[at]);
+    TEST_ASSERT_EQUAL_HEX16(0, crc_of((const char *)frame + 1, 257));
+}
+
 int main(void)
 {
     UNITY_BEGIN();
     RUN_TEST(test_the_check_value_of_the_catalogue);
     RUN_TEST(test_over_a_whole_frame_it_is_zero);
     RUN_TEST(test_every_octet);
+    RUN_TEST(test_it_is_put_behind_the_octets_low_first);
+    RUN_TEST(test_it_is_put_behind_one_octet);
+    RUN_TEST(test_it_is_put_behind_255_octets);
     return UNITY_END();
 }

@@ -4,7 +4,7 @@
 BLANK_DP_APP     := boards/blank/main_dp.c boards/common/dp_test01_app.c
 BLANK_DP_LIB      = $(DP_ALL)
 BLANK_MODBUS_APP := boards/blank/main_modbus.c $(addprefix boards/common/inverter,.c _bind.c _modbus.c _store.c)
-BLANK_MODBUS_LIB  = firmware/crc16.c $(wildcard firmware/modbus/*.c)
+BLANK_MODBUS_LIB  = firmware/crc16.c firmware/crc16_append.c $(wildcard firmware/modbus/*.c)
 BLANK_APPS       := $(BLANK_DP_APP) $(BLANK_MODBUS_APP) firmware/hal/hal_blank.c
 
 define blank_images # NAME PREFIX

@@ -153,8 +153,9 @@ extern struct mb_frame XDATA mb_frame;
 #define mb_pdu_len (mb_frame.pdu_len)
 
 /* Address and quantity of mb_pdu[1..4] to mb_span. -> octets that so many items of table take; 0: the
- * quantity is not 1..qty_max (exception 3, which comes before the address is looked at, [A] 6). */
-uint8_t mb_range(uint8_t table, uint16_t qty_max);
+ * quantity is not 1..regs_max registers or 1..16 * regs_max bits (exception 3, which comes before the address
+ * is looked at, [A] 6). regs_max is 1..127. */
+uint8_t mb_range(uint8_t table, uint8_t regs_max);
 
 /* The range in mb_span: check() finds its block and asks mb_check_ind(), changing nothing; move() copies the
  * values between mb_span.octets and the block that check() found last; access() does both. -> MB_OK or an

@@ -19,16 +19,17 @@ static bool find(void)
 {
     const struct mb_block CODE *b;
     for (b = mb_map; b->table; b++) {
-        uint16_t i;
+        uint16_t i, count;
         if (b->table != mb_span.table)
             continue;
         i = (uint16_t)(mb_span.addr - b->first);
+        count = b->count;
         if (MB_HAS_FILES && b->table == MB_FILE)
-            i = b->first == mb_span.file ? mb_span.addr : b->count;
-        if (i < b->count) {
+            i = b->first == mb_span.file ? mb_span.addr : count;
+        if (i < count) {
             found.block = b;
             found.offset = i;
-            return mb_span.qty <= b->count - i;
+            return mb_span.qty <= count - i;
         }
     }
     return false;
@@ -39,17 +40,30 @@ uint8_t mb_check(void)
     return find() ? mb_check_ind() : MB_ILLEGAL_ADDRESS;
 }
 
-static void move_registers(void)
+static uint16_t XDATA *first_register(void)
 {
-    uint16_t XDATA *item = (uint16_t XDATA *)found.block->data + found.offset;
+    return (uint16_t XDATA *)found.block->data + found.offset;
+}
+
+/* At most 125 registers fit a PDU. */
+static void read_registers(void)
+{
+    const uint16_t XDATA *item = first_register();
     uint8_t XDATA *wire = mb_span.octets;
-    uint_fast8_t left = (uint_fast8_t)mb_span.qty; /* at most 125 fit a PDU */
+    uint_fast8_t left = (uint_fast8_t)mb_span.qty;
     do {
-        if (mb_span.write)
-            *item = get_u16be(wire);
-        else
-            put_u16be(wire, *item);
-        item++;
+        put_u16be(wire, *item++);
+        wire += 2;
+    } while (--left);
+}
+
+static void write_registers(void)
+{
+    uint16_t XDATA *item = first_register();
+    const uint8_t XDATA *wire = mb_span.octets;
+    uint_fast8_t left = (uint_fast8_t)mb_span.qty;
+    do {
+        *item++ = get_u16be(wire);
         wire += 2;
     } while (--left);
 }
@@ -90,8 +104,10 @@ uint8_t mb_move(void)
         lock = MB_LOCK();
         if (mb_span.table <= MB_INPUTS)
             move_bits();
+        else if (mb_span.write)
+            write_registers();
         else
-            move_registers();
+            read_registers();
         MB_UNLOCK(lock);
     }
     if (mb_span.write)
@@ -105,13 +121,13 @@ uint8_t mb_access(void)
     return exception ? exception : mb_move();
 }
 
-uint8_t mb_range(uint8_t table, uint16_t qty_max)
+uint8_t mb_range(uint8_t table, uint8_t regs_max)
 {
     const uint16_t qty = get_u16be(mb_pdu + 3);
     mb_span.table = table;
     mb_span.addr = get_u16be(mb_pdu + 1);
     mb_span.qty = qty;
-    if (qty - 1u >= qty_max)
-        return 0;
-    return (uint8_t)(table <= MB_INPUTS ? (qty + 7u) >> 3 : 2u * qty);
+    if (table > MB_INPUTS)
+        return (uint8_t)(qty <= regs_max ? 2u * qty : 0);
+    return (uint8_t)(qty <= 16u * regs_max ? (qty + 7u) >> 3 : 0);
 }

@@ -67,34 +67,25 @@ uint8_t mb_open(void)
 /* -> octets of the frame */
 static uint16_t append_crc(void)
 {
-    uint8_t XDATA *at = mb_adu;
-    uint_fast8_t left = (uint_fast8_t)(mb_pdu_len + 1u);
-    mb_rx.crc = CRC16_START;
-    do
-        crc16_take(&mb_rx.crc, *at++);
-    while (--left);
-    at[0] = (uint8_t)mb_rx.crc;
-    at[1] = (uint8_t)(mb_rx.crc >> 8);
-    return (uint16_t)(mb_pdu_len + 1u + CRC_LEN);
+    const uint_fast8_t n = (uint_fast8_t)(mb_pdu_len + 1u);
+    crc16_append(mb_adu, n);
+    return (uint16_t)(n + CRC_LEN);
 }
 
-static bool is_ascii(void)
-{
-    return MB_WITH_ASCII && mb_rx.idle == MB_COLON;
-}
+#define is_ascii (MB_WITH_ASCII && mb_rx.idle == MB_COLON)
 
 /* Our choice: when something was heard after the request, its client has given up and is talking again; it is
  * not talked into. What comes then has lost its start: in RTU nothing is taken before t3.5 of silence (which,
  * if nothing was heard, is over). */
 void mb_line_end(bool answered)
 {
-    const uint16_t n = is_ascii() ? mb_ascii_encode() : append_crc();
+    const uint16_t n = is_ascii ? mb_ascii_encode() : append_crc();
     const uint8_t irq = hal_irq_save();
     if (answered && !mb_rx.flaws) {
         mb_rx.state = MB_SENDING;
         hal_send(mb_adu, n);
     } else {
-        mb_rx.state = is_ascii() ? MB_COLON : MB_INITIAL;
+        mb_rx.state = is_ascii ? MB_COLON : MB_INITIAL;
         hal_silence(mb_rx.t35);
     }
     hal_irq_restore(irq);
@@ -156,15 +147,23 @@ void line_octet_isr(uint8_t octet, uint8_t err) IN_ISR
  * the last octet, whichever that was (the port measures from there). */
 void line_silence_isr(void) IN_ISR
 {
-    if (mb_rx.state == MB_RECEPTION) {
+    switch (mb_rx.state) {
+    case MB_RECEPTION:
         mb_rx.state = MB_CONTROL;
         hal_silence(mb_rx.t35);
-    } else if (mb_rx.state == MB_CONTROL) {
-        const bool good = !mb_rx.flaws && mb_rx.n >= FRAME_MIN && mb_rx.crc == 0;
-        mb_frame_end_isr(good ? (uint8_t)(mb_rx.n - 1u - CRC_LEN) : 0);
-    } else if (mb_rx.state == MB_INITIAL) {
+        break;
+    case MB_CONTROL:
+        if (mb_rx.flaws || mb_rx.n < FRAME_MIN || mb_rx.crc)
+            mb_frame_end_isr(0);
+        else
+            mb_frame_end_isr((uint8_t)(mb_rx.n - 1u - CRC_LEN));
+        break;
+    case MB_INITIAL:
         mb_rx.state = MB_IDLE;
-    } /* else: an idle line, the limit is still set */
+        break;
+    default: /* an idle line, the limit is still set */
+        break;
+    }
 }
 
 /* Our choice: the next frame may start at once, [S] figure 14 would wait t3.5 first. A client that keeps t3.5

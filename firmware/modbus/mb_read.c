@@ -5,13 +5,11 @@
  */
 #include "modbus/mb.h"
 
-#define BITS_MAX 2000u
-#define REGS_MAX 125u
+#define REGS_MAX 125u /* or 2000 bits */
 
 uint8_t mb_read(void)
 {
-    const uint8_t table = mb_pdu[0];
-    const uint8_t octets = mb_range(table, table <= MB_INPUTS ? BITS_MAX : REGS_MAX);
+    const uint8_t octets = mb_range(mb_pdu[0], REGS_MAX); /* the code is the table */
     if (octets == 0)
         return MB_ILLEGAL_VALUE;
     mb_pdu[1] = octets;

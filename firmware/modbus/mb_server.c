@@ -18,17 +18,29 @@ struct mb_row {
 #define MB_ROW(code, handler, octets, how)     {code, octets, how, handler},
 
 MB_FUNCTIONS(MB_DECLARE)
-static const struct mb_row CODE rows[] = {MB_FUNCTIONS(MB_ROW)};
+
+static uint8_t unknown(void)
+{
+    return MB_ILLEGAL_FUNCTION;
+}
+
+static const struct mb_row CODE rows[] = {MB_FUNCTIONS(MB_ROW){0, 0, MB_LEAST, unknown}};
+
+/* The last row serves all other codes. */
+static const struct mb_row CODE *find(uint8_t code)
+{
+    const struct mb_row CODE *row = rows;
+    while (row->code && row->code != code)
+        row++;
+    return row;
+}
 
 /* [A] leaves open when a wrong length is found out; [S] appendix A and [A] 7 ("the implied length is
  * incorrect") make it exception 3, and here it comes before all that a handler looks at. */
 static uint8_t execute(void)
 {
-    const struct mb_row CODE *row = rows;
+    const struct mb_row CODE *row = find(mb_pdu[0]);
     uint8_t more;
-    while (row->code != mb_pdu[0])
-        if (++row == rows + sizeof rows / sizeof rows[0])
-            return MB_ILLEGAL_FUNCTION;
     if (mb_adu[0] == 0 && !(row->how & MB_BROADCAST))
         return MB_ILLEGAL_FUNCTION; /* counted, never answered */
     if (mb_pdu_len < row->octets)

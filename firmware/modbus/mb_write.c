@@ -9,8 +9,7 @@
  */
 #include "modbus/mb.h"
 
-#define BITS_MAX 0x7B0u
-#define REGS_MAX 123u
+#define REGS_MAX 123u /* or 7B0H bits */
 
 uint8_t mb_write_one(void)
 {
@@ -29,7 +28,7 @@ uint8_t mb_write_one(void)
 
 uint8_t mb_write_many(void)
 {
-    const uint8_t octets = mb_pdu[0] & 1u ? mb_range(MB_COILS, BITS_MAX) : mb_range(MB_HOLDING, REGS_MAX);
+    const uint8_t octets = mb_range(mb_pdu[0] & 1u ? MB_COILS : MB_HOLDING, REGS_MAX);
     if (octets == 0 || octets != mb_pdu[5])
         return MB_ILLEGAL_VALUE;
     mb_pdu_len = 5;
