@@ -28,7 +28,7 @@ build/$1/$2.c/%.asm: %.c $$(wildcard firmware/*.h firmware/*/*.h firmware/hal/mc
                      firmware/hal/mcs51/image.mk build/$1/$2.c/options
 	@mkdir -p $$(@D)
 	$$(call say,SDCC,$$@)out=$$$$($$(call mcs51_options,$1,$2) -S $$< -o $$@ 2>&1) && test -z "$$$$out" || { echo "$$$$out"; rm -f $$@; exit 1; }
-build/$1/$2.ihx: $$(patsubst %.c,build/$1/$2.c/%.asm,$$($1/$2_SRC) $$($1/$2_DEFAULTS)) $$(wildcard firmware/hal/mcs51/*.py) firmware/hal/mcs51/link.sh
+build/$1/$2.ihx: $$(patsubst %.c,build/$1/$2.c/%.asm,$$($1/$2_SRC) $$($1/$2_DEFAULTS)) $$(wildcard firmware/hal/mcs51/*.py firmware/hal/mcs51/*/*.py) firmware/hal/mcs51/link.sh
 	$$(call say,LINK51,$$@)sh firmware/hal/mcs51/link.sh build/$1/$2 "$$($1/$2_SRC)" "$$($1/$2_DEFAULTS)" \
 	    $$(MCS51_CC) --code-size $$($1_CODE) --xram-size $$(or $$($1/$2_XRAM),$$($1_XRAM)) --iram-size 256
 build/$1/$2.bin: build/$1/$2.ihx

@@ -24,7 +24,7 @@ assemble_and_link() { # COMPILER OPTION...
 }
 
 python3 firmware/hal/mcs51/strip_unused.py $(for f in $sources; do echo "$f.asm"; done) >"$image.stripped"
-python3 firmware/hal/mcs51/drop_stores.py $(for f in $sources $defaults; do echo "$f.asm"; done)
+python3 firmware/hal/mcs51/tidy $(for f in $sources $defaults; do echo "$f.asm"; done)
 assemble_and_link "$@"
 if [ -f "$image.map" ]; then
     python3 firmware/hal/mcs51/near.py "$image.map" $sources

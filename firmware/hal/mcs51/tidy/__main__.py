@@ -1,0 +1,44 @@
+#!/usr/bin/env python3
+"""Make what SDCC emits shorter and faster: all of an image's assembly at once, without touching what it does.
+
+usage: tidy FILE.asm ...      (rewritten in place; from the top folder, where the C sources are)
+
+What is written by hand stays as it is (naked functions), and so do functions with a table of jumps or a frame on the stack.
+"""
+import re
+import sys
+from pathlib import Path
+
+from asm import Program
+from whole import tidy
+
+
+def sources(paths):
+    """The C files that were compiled to IMAGE/PATH.asm, and every header but other processors'."""
+    for path in map(Path, paths):
+        ends = (Path(*path.parts[n:]).with_suffix(".c") for n in range(len(path.parts)))
+        yield next((end for end in ends if end.exists()), None) or sys.exit(f"{path}: made of no C file here")
+    for folder in ("firmware", "boards"):
+        yield from (header for header in Path(folder).rglob("*.h") if not header.match("hal/*/*.h") or header.match("mcs51/*"))
+
+
+def volatile_names(files):
+    """Every name in a declaration that says volatile."""
+    found = set()
+    for file in files:
+        text = re.sub(r"/\*.*?\*/|//[^\n]*", "", file.read_text(errors="replace"), flags=re.S)
+        for declaration in re.findall(r"(?<!asm)\s\bvolatile\b([^;={}]*)", text):
+            found |= set(re.findall(r"\w+", declaration))
+    return found
+
+
+def main(paths):
+    program = Program(paths, volatile_names(sources(paths)))
+    tidy(program)
+    program.write()
+    return 0
+
+
+if __name__ == "__main__":
+    sys.setrecursionlimit(10000)
+    sys.exit(main(sys.argv[1:]))

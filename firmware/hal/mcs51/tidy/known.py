@@ -1,0 +1,261 @@
+"""What registers and memory hold, forward through a function: what is there already is not fetched again.
+
+A value is anything equal to itself: a constant, what an operation makes of two values, or one of its own kind that
+nobody else has. Behind a label only what every way to it agrees on is known; a loop's head knows nothing.
+DPTR: the values of its halves are ("low", base, offset) and ("high", base, offset) where they belong together, base
+being a symbol or a pair of values, so that one access behind another is an `inc dptr` away.
+
+Memory is followed only in variables that compiled C alone changes (Program.plain); a call, a store through a pointer,
+or an access to a port ends what is known of all but the function's own locals.
+"""
+import re
+from itertools import count
+
+from asm import BANK, BIT, BRANCHES, C, CALLS, DPTR, ENDS, JUMPS, NAMES, RETURNS, cell, register, unknown
+
+CONSTANT = re.compile(r"^#(0x[0-9a-f]+|\d+)$")
+ADDRESS = re.compile(r"^#\(?(_\w+)(?: \+ (0x[0-9a-f]+|\d+)\)?)?$")
+HIGH = re.compile(r"^#\(\(?(_\w+)(?: \+ (0x[0-9a-f]+|\d+)\))? >> 8\)$")
+PURE = {"anl", "orl", "xrl", "add"}  # of A and another operand, either way round
+numbers = count()
+results = {}  # of operations: what is made of the same in the same way has the same number
+
+
+def fresh():
+    return "own", next(numbers)
+
+
+def result(*of):
+    return "made", results.setdefault(of, len(results))
+
+
+def constant(operand):
+    found = CONSTANT.match(operand)
+    if found:
+        return "#", int(found[1], 0)
+    for pattern, half in ((ADDRESS, "low"), (HIGH, "high")):
+        found = pattern.match(operand)
+        if found:
+            return half, found[1], int(found[2] or "0", 0)
+    return ("text", operand) if operand.startswith("#") else None
+
+
+def pointer(low, high):
+    """(base, offset) of a DPTR with these halves"""
+    if low[0] == "low" and high[0] == "high" and low[1:] == high[1:]:
+        return low[1:]
+    if low[0] == "#" and high[0] == "#":
+        return "", low[1] | high[1] << 8
+    return ("pair", low, high), 0
+
+
+def halves(base, offset):
+    if base == "":
+        return ("#", offset & 0xFF), ("#", offset >> 8 & 0xFF)
+    if base[0] == "pair" and not offset:
+        return base[1:]
+    return ("low", base, offset), ("high", base, offset)
+
+
+class Known:
+    """Where -> value. Where is the name of a register or a cell."""
+
+    def __init__(self, held=None):
+        self.held = dict(held or {})
+
+    def of(self, where):
+        if where not in self.held:
+            self.held[where] = fresh()
+        return self.held[where]
+
+    def forget(self, registers):
+        for name in NAMES:
+            if registers & BIT[name]:
+                self.held.pop(name, None)
+
+    def forget_memory(self, kept):
+        for where in [w for w in self.held if isinstance(w, tuple) and w[0] not in kept]:
+            del self.held[where]
+
+    def replace(self, old, new):
+        """Two values turn out to be the same."""
+        for where, value in self.held.items():
+            if value == old:
+                self.held[where] = new
+
+    def agree(self, other):
+        return Known({w: v for w, v in self.held.items() if other.held.get(w) == v})
+
+
+class Follower:
+    """Walks one function; `improve` sees each instruction when `now` is what is known before it, and says what is there instead."""
+
+    def __init__(self, program, flow, function, own):
+        self.program, self.flow, self.function, self.own = program, flow, function, own
+        self.now, self.at_labels, self.loops = Known(), {}, self._loop_heads()
+
+    def _loop_heads(self):
+        code, labels = self.function.code, self.function.labels
+        return {line.target() for n, line in enumerate(code)
+                if line.op in JUMPS | BRANCHES and labels.get(line.target(), n + 1) <= n}
+
+    def walk(self, improve):
+        reached = True
+        for line in list(self.function.code):
+            if line.label:
+                before = self.at_labels.get(line.label)
+                if line.label in self.loops or not line.label.endswith("$"):
+                    self.now = Known()
+                elif reached:
+                    self.now = self.now.agree(before) if before else self.now
+                else:
+                    self.now = before or Known()
+                reached = True
+            if not line.op:
+                continue
+            if not reached:
+                continue
+            for done in [line] if line in self.function.away else improve(line):
+                self.step(done)
+                reached = done.op not in ENDS
+
+    def value(self, operand):
+        """of what an operand reads; None: nobody knows, and it may be different the next time"""
+        found = constant(operand)
+        if found:
+            return found
+        name = operand
+        if name in ("acc", "a", "b", "c", "dpl", "dph") or re.match(r"a?r\d$", name):
+            return self.now.of({"acc": "a"}.get(name, name.lstrip("a") if name.startswith("ar") else name))
+        where = self.cell_of(operand)
+        return self.now.of(where) if where else None
+
+    def cell_of(self, operand):
+        """The cell of a direct operand or of one that a register points to, if it is one that can be followed."""
+        kinds = ("DSEG", "OSEG")
+        where = cell(operand)
+        if operand in ("@r0", "@r1"):
+            at, kinds = self.now.of(operand[1:]), ("ISEG", "DSEG", "OSEG")
+            where = at[1:] if at[0] == "low" and isinstance(at[1], str) else None
+        return where if where and self.program.plain.get(where[0]) in kinds else None
+
+    def external(self, operand):
+        if operand == "@dptr":
+            where, kinds = pointer(self.now.of("dpl"), self.now.of("dph")), ("XSEG", "PSEG")
+        else:
+            at, kinds = self.now.of(operand[1:]), ("PSEG",)
+            where = at[1:] if at[0] == "low" else (None, 0)
+        return where if isinstance(where[0], str) and self.program.plain.get(where[0]) in kinds else None
+
+    def step(self, line):
+        """What is known behind an instruction."""
+        now, op, args = self.now, line.op, line.args
+        first, second = (args + ("", ""))[:2]
+        if op == "mov" and first == "dptr":
+            found = constant(second)
+            if found and found[0] == "#":
+                now.held["dpl"], now.held["dph"] = halves("", found[1])
+            elif found and found[0] == "low":
+                now.held["dpl"], now.held["dph"] = halves(*found[1:])
+            else:
+                now.forget(DPTR)
+        elif op == "inc" and first == "dptr":
+            base, offset = pointer(now.of("dpl"), now.of("dph"))
+            now.held["dpl"], now.held["dph"] = halves(base, offset + 1)
+        elif op in ("mov", "movx"):
+            self._move(line, first, second)
+        elif op in PURE and first == "a" and self.value(second):
+            made = result(op, *sorted((now.of("a"), self.value(second)), key=repr))
+            now.forget(line.writes)
+            now.held["a"] = made
+        elif op in ("inc", "dec", "cpl", "swap", "rl", "rr") and self._register(first):
+            name = self._register(first)
+            now.held[name] = result(op, now.of(name))
+        elif op == "clr" and first in ("a", "c"):
+            now.held[first] = ("#", 0)
+        elif op == "setb" and first == "c":
+            now.held["c"] = ("#", 1)
+        else:
+            self._other(line, first)
+
+    @staticmethod
+    def _register(operand):
+        bit = register(operand)
+        return NAMES[bit.bit_length() - 1] if bit and not bit & (bit - 1) and "." not in operand and operand != "c" else None
+
+    def _move(self, line, first, second):
+        now = self.now
+        if line.op == "movx":
+            line.where = self.external(first if first != "a" else second)
+            if first == "a":
+                now.held["a"] = now.of(line.where) if line.where else fresh()
+            else:
+                if not line.where:
+                    now.forget_memory(self.own)
+                else:
+                    now.held[line.where] = now.of("a")
+            return
+        value = self.value(second) or fresh()
+        name, where = self._register(first), self.cell_of(first)
+        line.where = where if first.startswith("@") else self.cell_of(second) if second.startswith("@") else None
+        if name and line.writes == BIT[name]:
+            now.held[name] = value
+        elif where:
+            now.held[where] = value
+        else:
+            self._other(line, first)
+
+    def _other(self, line, first):
+        now, op = self.now, line.op
+        if op in BRANCHES:
+            self._branch(line)
+            return
+        if op in JUMPS:
+            self._remember(line.target(), now)
+            return
+        if op in CALLS:
+            now.forget(self.flow.changed_by(self.function, line))
+            now.forget_memory(self.own)
+            return
+        if op in RETURNS:
+            return
+        if op in ("xch", "xchd") or unknown(first):
+            now.held = {}
+        if line in self.function.switches:
+            now.forget(BANK)
+        now.forget(line.writes)
+        if op == "push" or line.writes and not first.startswith(("@", "_", "(")):
+            return
+        where = self.cell_of(first)
+        if where:
+            now.held[where] = fresh()
+        elif self.program.plain.get(first) != "BSEG":  # a port, or anywhere
+            now.forget_memory(self.own)
+
+    def _branch(self, line):
+        now, op, args = self.now, line.op, line.args
+        there = Known(now.held)
+        if op == "jbc" or op == "djnz":
+            there.forget(line.writes)
+            where = self.cell_of(args[0])
+            if where:
+                there.held[where] = fresh()
+            elif not line.writes:
+                there.forget_memory(self.own)
+            now.held = dict(there.held)
+        if op == "cjne":
+            there.forget(C)
+            now.held = dict(there.held)
+            one, other = self.value(args[0]), self.value(args[1])
+            if one and other:
+                now.replace(one, other) if other[0] == "#" else now.replace(other, one)
+            now.held["c"] = ("#", 0)
+        if op in ("jz", "jnz"):
+            (there if op == "jz" else now).replace(now.of("a"), ("#", 0))
+        if op in ("jc", "jnc"):
+            there.held["c"], now.held["c"] = (("#", 1), ("#", 0)) if op == "jc" else (("#", 0), ("#", 1))
+        self._remember(line.target(), there)
+
+    def _remember(self, label, known):
+        before = self.at_labels.get(label)
+        self.at_labels[label] = known.agree(before) if before else Known(known.held)

@@ -1,0 +1,171 @@
+"""Rules of one instruction or two, with what is known before them (known.py).
+
+  what is to be fetched is there already            nothing
+  it is in a register that is cheaper to read       from there
+  DPTR points there already, or one octet before    nothing, or inc dptr
+  a store of what the place holds                   nothing
+  mov a,X / add a,Y with Y in A before              add a,X
+  a branch on what is known                         a jump, or nothing
+
+None makes anything longer, nor slower.
+"""
+from asm import instruction, register, unknown
+from known import Follower, constant, pointer
+
+COMMUTATIVE = ("add", "anl", "orl", "xrl")
+REGISTERS = [f"r{n}" for n in range(8)]
+
+
+class Simplifier:
+    def __init__(self, program, flow, function, own):
+        self.function, self.gone, self.changed = function, set(), False
+        self.follower = Follower(program, flow, function, own)
+
+    def run(self):
+        self.follower.walk(self.improve)
+        if self.changed:
+            self.function.refresh()
+        return self.changed
+
+    @property
+    def now(self):
+        return self.follower.now
+
+    def improve(self, line):
+        if line in self.gone:
+            return []
+        new = self._better(line)
+        if new is None:
+            return [line]
+        self.changed = True
+        self.function.put(line, *new)
+        return new
+
+    def _next(self, line, number=1):
+        """The following instructions, as far as no label comes between."""
+        lines, at = self.function.lines, self.function.lines.index(line)
+        found = []
+        for other in lines[at + 1:]:
+            if other.label or len(found) == number:
+                break
+            if other.op:
+                found.append(other)
+        return found + [instruction("nop")] * (number - len(found))
+
+    def _drop_next(self, lines):
+        for line in lines:
+            self.gone.add(line)
+            self.function.drop(line)
+
+    def _better(self, line):
+        op, args = line.op, line.args
+        first, second = (args + ("", ""))[:2]
+        if op == "mov" and first == "dptr":
+            return self._pointer_constant(line, second)
+        if op == "mov" and first == "dpl" and self._next(line)[0].args[:1] == ("dph",) and self._next(line)[0].op == "mov":
+            better = self._pointer_pair(line)
+            return self._move(line, first, second) if better is None else better
+        if op == "mov":
+            return self._joined(line) or self._move(line, first, second)
+        if op == "movx":
+            return self._external(line, first, second)
+        if op in ("clr", "setb") and first in ("a", "c"):
+            return [] if self.now.of(first) == ("#", int(op == "setb")) else None
+        if op in ("jz", "jnz") and self.now.of("a")[0] == "#":
+            return [instruction("sjmp", first)] if (self.now.of("a")[1] == 0) == (op == "jz") else []
+        if op in ("jc", "jnc") and self.now.of("c")[0] == "#":
+            return [instruction("sjmp", first)] if (self.now.of("c")[1] == 1) == (op == "jc") else []
+        if op in COMMUTATIVE + ("addc", "subb") and first == "a" and not register(second) and second[0] != "@":
+            where = self._where(self.follower.value(second))
+            return [instruction(op, "a", where)] if where else None
+        return None
+
+    def _where(self, value):
+        """A register of the bank that holds a value."""
+        return next((r for r in REGISTERS if value and self.now.held.get(r) == value), None)
+
+    # ---- DPTR ----
+
+    def _at(self):
+        return pointer(self.now.of("dpl"), self.now.of("dph"))
+
+    def _pointer_constant(self, line, second):
+        found = constant(second)
+        if not found or found[0] not in ("#", "low"):
+            return None
+        base, offset = found[1:] if found[0] == "low" else ("", found[1])
+        at, there = self._at()
+        if at == base and there == offset:
+            return []
+        return [instruction("inc", "dptr")] if at == base and there + 1 == offset else None
+
+    def _pointer_pair(self, line):
+        high = self._next(line)[0]
+        low_value, high_value = self.follower.value(line.args[1]), self.follower.value(high.args[1])
+        if not low_value or not high_value or high.args[1] == "dpl":
+            return None
+        base, offset = pointer(low_value, high_value)
+        steps = [step for step in self._next(high, 9)]
+        steps = steps[:next((n for n, s in enumerate(steps) if not s.same("inc", "dptr")), len(steps))]
+        at, there = self._at()
+        if at != base or not offset <= there <= offset + len(steps):
+            return None
+        self._drop_next([high] + steps[:there - offset])
+        return []
+
+    # ---- moves ----
+
+    def _move(self, line, first, second):
+        value = self.follower.value(second)
+        if value is None or unknown(first) or "." in first or first in ("c", "psw", "_PSW") or second == "c":
+            return None
+        name, where = self.follower._register(first), self.follower.cell_of(first)
+        if not name and not where and (first[0] == "@" or second[0] == "#"):
+            return None  # what a port is set to is looked for by the checks
+        if self.now.held.get(name or where) == value:
+            return []
+        return self._cheaper(first, second, value)
+
+    def _cheaper(self, first, second, value):
+        if first == "a":
+            if value == ("#", 0):
+                return [instruction("clr", "a")]
+            where = None if self._is_r(second) else self._where(value)
+        elif self._is_r(first):
+            where = "a" if second != "a" and self.now.held.get("a") == value else None
+        else:  # a direct place
+            where = "a" if second != "a" and self.now.held.get("a") == value else \
+                None if self._is_r(second) or second == "a" or first[0] == "@" else self._where(value)
+        return [instruction("mov", first, where)] if where else None
+
+    @staticmethod
+    def _is_r(operand):
+        return operand in REGISTERS
+
+    def _joined(self, line):
+        """mov a,X / add a,Y where A holds Y's value: add a,X."""
+        following = self._next(line)[0]
+        if line.args[0] != "a" or following.op not in COMMUTATIVE or following.args[0] != "a" or \
+                following.args[1] in ("a", "acc") or line.args[1].startswith("@") and following.args[1].startswith("@"):
+            return None
+        value = self.follower.value(following.args[1])
+        if value is None or value != self.now.of("a") or line.args[1] in ("acc", "c"):
+            return None
+        self._drop_next([following])
+        return [instruction(following.op, "a", line.args[1])]
+
+    # ---- external RAM ----
+
+    def _external(self, line, first, second):
+        where = self.follower.external(first if first != "a" else second)
+        if not where:
+            return None
+        value = self.now.held.get(where)
+        if first != "a":
+            return [] if value is not None and value == self.now.of("a") else None
+        if value is None:
+            return None
+        if value == self.now.of("a"):
+            return []
+        register_ = self._where(value)
+        return [instruction("mov", "a", register_)] if register_ else [instruction("clr", "a")] if value == ("#", 0) else None

@@ -1,0 +1,50 @@
+"""The rules over a whole program: callees before their callers, each as long as anything changes."""
+from flow import Flow
+from homes import find_homes
+from own import own_memory
+from simpler import Simplifier
+from unread import Unread
+
+ROUNDS = 6
+
+
+def bottom_up(program, flow):
+    done, order = set(), []
+
+    def visit(function):
+        if function in done:
+            return
+        done.add(function)
+        for line in function.code:
+            callee = flow.callee(function, line) if line.op and flow.leaves(function, line) else None
+            if callee:
+                visit(callee)
+        order.append(function)
+
+    for function in program.functions:
+        visit(function)
+    return order
+
+
+def tidy(program):
+    flow = Flow(program)
+    order = bottom_up(program, flow)
+    for function in order:
+        if function.may_change():
+            improve(program, flow, function)
+            if find_homes(program, flow, function, own_memory(program, flow, function)):
+                flow.forget(function)
+                improve(program, flow, function)
+        flow.forget(function)  # of one that stays as it is, too: what it calls may have changed
+    flow = Flow(program)
+    for function in order:
+        if function.may_change():
+            improve(program, flow, function)
+        flow.forget(function)
+
+
+def improve(program, flow, function):
+    for _ in range(ROUNDS):
+        changed = Simplifier(program, flow, function, own_memory(program, flow, function)).run()
+        if not Unread(program, flow, function, own_memory(program, flow, function)).run() and not changed:
+            break

@@ -1,0 +1,165 @@
+#!/usr/bin/env python3
+"""firmware/hal/mcs51/tidy does what its rules say, and nothing else: assembly in, assembly out, worked out by hand.
+
+Instructions stand between slashes. `f` is the function looked at; behind `|` stand others, each a name, a colon and its code.
+"""
+import sys
+import tempfile
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "firmware" / "hal" / "mcs51" / "tidy"))
+from whole import tidy  # noqa: E402
+from asm import Program  # noqa: E402
+
+S = "mov dptr,#_f_x_65536_1"
+KEEP = "_keep:ret"  # changes nothing; of _elsewhere nothing is known
+SAME = None  # nothing may change
+CASES = {
+    # ---- own memory ----
+    "an argument that is stored and loaded at once stays in A": (
+        f"mov a,dpl / {S} / movx @dptr,a / movx a,@dptr / mov r7,a / mov _g,r7 / mov _h,r7 / ret",
+        "mov a,dpl / mov _g,a / mov _h,a / ret"),
+    "an argument needed behind a call moves into a register that the call leaves alone": (
+        f"mov a,dpl / {S} / movx @dptr,a / lcall _g7 / {S} / movx a,@dptr / mov _g,a / ret | _g7:mov r2,_h / mov a,r2 / add a,r2 / mov _g,a / ret",
+        "mov r3,dpl / lcall _g7 / mov _g,r3 / ret"),
+    "behind a call of the library it stays in memory": (
+        f"mov a,dpl / {S} / movx @dptr,a / lcall _elsewhere / {S} / movx a,@dptr / mov _g,a / ret", SAME),
+    "a static variable, wanted when the function begins, is stored": (
+        f"{S} / movx a,@dptr / mov _g,a / inc a / movx @dptr,a / ret", SAME),
+    "a variable whose address is given away is stored": (
+        f"mov a,dpl / {S} / movx @dptr,a / mov _g,#_f_x_65536_1 / ret", SAME),
+    "a variable whose address a call gets is stored": (
+        f"mov a,dpl / {S} / movx @dptr,a / lcall _elsewhere / ret", SAME),
+    "a variable that DPTR goes on from to an unknown place is stored": (
+        f"{S} / mov a,#1 / movx @dptr,a / mov a,_g / movc a,@a+dptr / mov _g,a / ret", SAME),
+    "a variable that start-up names is stored": (
+        "mov dptr,#_f_y_65536_2 / mov a,#1 / movx @dptr,a / ret", SAME),
+    "a static of the file is no local": ("mov dptr,#_x / mov a,#1 / movx @dptr,a / ret", SAME),
+    "in an interrupt function nothing moves into a register": (
+        f"push acc / push dpl / push dph / {S} / mov a,#1 / movx @dptr,a / lcall _a / {S} / movx a,@dptr / mov _g,a / "
+        "pop dph / pop dpl / pop acc / reti | _a:mov a,_g / mov dptr,#_x / movx @dptr,a / ret", SAME),
+    # ---- DPTR ----
+    "the next octet of a place is one step away": (
+        "mov dptr,#_x / mov a,_g / movx @dptr,a / mov dptr,#(_x + 0x0001) / mov a,_h / movx @dptr,a / ret",
+        "mov dptr,#_x / mov a,_g / movx @dptr,a / inc dptr / mov a,_h / movx @dptr,a / ret"),
+    "two octets on it is set anew": (
+        "mov dptr,#_x / mov a,_g / movx @dptr,a / mov dptr,#(_x + 0x0002) / mov a,_h / movx @dptr,a / ret", SAME),
+    "it is set already": (
+        "mov dptr,#_x / movx a,@dptr / add a,_g / mov dptr,#_x / movx @dptr,a / ret",
+        "mov dptr,#_x / movx a,@dptr / add a,_g / movx @dptr,a / ret"),
+    "a call that sets it": (
+        "mov dptr,#_x / movx a,@dptr / lcall _d / mov dptr,#_x / movx @dptr,a / ret | _d:mov dptr,#_y / movx @dptr,a / ret",
+        SAME),
+    "a call that leaves it": (
+        "mov dptr,#_x / mov a,#3 / movx @dptr,a / lcall _c / mov dptr,#_x / movx @dptr,a / ret | _c:mov _g,#0 / ret",
+        "mov dptr,#_x / mov a,#3 / movx @dptr,a / lcall _c / movx @dptr,a / ret"),
+    "the same pointer, some octets on": (
+        "mov dpl,_p / mov dph,(_p + 1) / inc dptr / movx a,@dptr / mov _g,a / "
+        "mov dpl,_p / mov dph,(_p + 1) / inc dptr / inc dptr / movx a,@dptr / mov _h,a / ret",
+        "mov dpl,_p / mov dph,(_p + 1) / inc dptr / movx a,@dptr / mov _g,a / inc dptr / movx a,@dptr / mov _h,a / ret"),
+    "the pointer has changed meanwhile": (
+        "mov dpl,_p / mov dph,(_p + 1) / movx a,@dptr / mov _p,a / mov dpl,_p / mov dph,(_p + 1) / movx a,@dptr / mov _h,a / ret",
+        "mov dpl,_p / mov dph,(_p + 1) / movx a,@dptr / mov _p,a / mov dpl,a / movx a,@dptr / mov _h,a / ret"),
+    # ---- what is known ----
+    "a volatile variable is read each time": ("mov a,_v / mov _g,a / mov a,_v / mov _h,a / ret",
+                                              "mov _g,_v / mov _h,_v / ret"),
+    "a volatile one in external RAM, too": (
+        "mov dptr,#_w / movx a,@dptr / mov _g,a / movx a,@dptr / mov _h,a / ret", SAME),
+    "a volatile one is written each time": ("mov _v,#1 / mov _v,#1 / ret", SAME),
+    "a port is read each time": ("mov a,_SBUF / mov a,_SBUF / mov _g,a / ret", "mov a,_SBUF / mov _g,_SBUF / ret"),
+    "what stands behind a pointer is read each time": (
+        "movx a,@r0 / mov _g,a / movx a,@r0 / mov _h,a / ret", SAME),
+    "a store through a pointer may change a variable": (
+        "mov dptr,#_x / movx a,@dptr / mov _g,a / movx @r0,a / movx a,@dptr / mov _h,a / ret", SAME),
+    "a call may change a variable": (
+        f"mov dptr,#_x / movx a,@dptr / mov _g,a / lcall _keep / movx a,@dptr / mov _h,a / ret | {KEEP}", SAME),
+    "a call may change registers": (
+        "mov r7,_g / lcall _elsewhere / mov r7,_g / mov _h,r7 / mov _p,r7 / ret",
+        "lcall _elsewhere / mov r7,_g / mov _h,r7 / mov _p,r7 / ret"),
+    "another bank's registers are others": (
+        f"mov r7,#1 / mov psw,#0x08 / lcall _keep / mov psw,#0x00 / mov a,_h / add a,r7 / mov _g,a / ret | {KEEP}", SAME),
+    "both ways to a label agree": (
+        "mov a,_g / jb _bit,00101$ / mov _h,#1 / 00101$: / mov a,_g / mov _p,a / ret",
+        "mov a,_g / jb _bit,00101$ / mov _h,#1 / 00101$: / mov _p,a / ret"),
+    "one way to the label knows something else": (
+        "mov a,_g / jz 00101$ / inc a / 00101$: / mov a,_g / mov _p,a / ret",
+        "mov a,_g / jz 00101$ / 00101$: / mov _p,_g / ret"),
+    "a loop's head knows nothing": (
+        "mov a,_g / 00101$: / add a,_h / mov _p,a / mov a,_g / djnz r7,00101$ / ret", SAME),
+    "behind jz A is zero": ("mov a,_g / jz 00101$ / ret / 00101$: / clr a / mov _p,a / ret",
+                            "mov a,_g / jz 00101$ / ret / 00101$: / mov _p,a / ret"),
+    # ---- what nobody reads ----
+    "a value that passes through a register": ("mov r7,_g / mov a,r7 / add a,_h / mov _p,a / ret",
+                                               "mov a,_g / add a,_h / mov _p,a / ret"),
+    "a register that a branch still wants": (
+        "mov r7,_g / mov a,r7 / jz 00101$ / ret / 00101$: / mov _h,r7 / mov _p,r7 / ret",
+        "mov a,_g / jz 00101$ / ret / 00101$: / mov _h,a / mov _p,a / ret"),
+    "the flags of what is not read may be wanted": ("mov a,_g / add a,#0xff / jc 00101$ / ret / 00101$: / mov _h,#1 / ret", SAME),
+    "a result that a caller wants": (
+        "lcall _r / mov _g,dpl / mov _h,dph / ret | _r:mov dpl,_p / mov dph,(_p + 1) / ret", SAME),
+    "push and pop around a call that leaves the register": (
+        "mov r7,dpl / push ar7 / lcall _c / pop ar7 / mov _g,r7 / mov _h,r7 / ret | _c:mov _g,#0 / ret",
+        "mov r7,dpl / lcall _c / mov _g,r7 / mov _h,r7 / ret"),
+    "push and pop around one that does not": (
+        "mov r7,dpl / push ar7 / lcall _c / pop ar7 / mov _g,r7 / mov _h,r7 / ret | _c:mov r7,#1 / mov _g,r7 / mov _h,r7 / ret",
+        "mov r7,dpl / push ar7 / lcall _c / pop ar7 / mov _g,r7 / mov _h,r7 / ret"),
+    # ---- left alone ----
+    "written by hand": (";naked function: no prologue. / mov a,_g / mov a,_g / mov r7,a / ret", SAME),
+    "a table of jumps": ("mov a,_g / mov a,_g / mov dptr,#00101$ / jmp @a+dptr / 00101$: / ret", SAME),
+    "a frame on the stack": ("push _bp / mov _bp,sp / mov a,_g / mov a,_g / mov r7,a / pop _bp / ret", SAME),
+}
+HEAD = """
+\t.globl _f
+_SBUF\t=\t0x0099
+\t.area DSEG    (DATA)
+_g:
+_h:
+_v:
+_p:
+\t.area XSEG    (XDATA)
+_x:
+_y:
+_w:
+_f_x_65536_1:
+_f_y_65536_2:
+\t.area GSINIT  (CODE)
+\tmov\tdptr,#_f_y_65536_2
+\t.area CSEG    (CODE)
+_f:
+\tar0 = 0x00
+"""
+
+
+def lines_of(code):
+    return "".join(f"{line if line.endswith(':') else chr(9) + line}\n" for line in code.split(" / "))
+
+
+def tidied(code, folder):
+    first, *others = code.split(" | ")
+    text = HEAD + lines_of(first)
+    for other in others:
+        name, _, body = other.partition(":")
+        text += f"{name}:\n" + lines_of(body)
+    file = Path(folder) / "x.asm"
+    file.write_text(text + "_caller:\n" + lines_of("lcall _f / 00101$: / sjmp 00101$"))
+    program = Program([str(file)], {"v", "w"})
+    tidy(program)
+    function = next(f for f in program.functions if f.name == "_f")
+    lines = [" ".join(line.text.split()) for line in function.lines if line.op or ";" in line.text or
+             line.label and line.label != "_f"]
+    return " / ".join(lines)
+
+
+def main():
+    failed = 0
+    with tempfile.TemporaryDirectory() as folder:
+        for name, (code, wanted) in CASES.items():
+            got, wanted = tidied(code, folder), wanted or code.split(" | ")[0]
+            failed += got != wanted
+            print(f"{name}:{'PASS' if got == wanted else 'FAIL: ' + got + '     instead of ' + wanted}")
+    print(f"-----------------------\n{len(CASES)} Tests {failed} Failures 0 Ignored")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
