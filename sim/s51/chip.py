@@ -8,6 +8,7 @@ What s51 0.6.4 does not model is supplied or corrected here:
               TB8 of a sent octet is noted when SBUF is written; odd=1 at the console turns the parity of received octets round
   input       is looked at every million instructions unless uart0_check_often is set
   RI, TI      come at the end of the character; on the real part RI comes half a bit and TI one bit earlier
+  sim_ticks   is told with 32 bits and a sign: clocks() puts up with it; sums in conditions do not, 178 s after a reset at 24 MHz
 """
 import os
 import re
@@ -132,6 +133,7 @@ class Chip:
             ["s51", "-t", "52", "-X", f"{mhz}M", "-b", "-P", "-S", f"in={self.to_chip},out={self.from_chip}", image],
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, bufsize=0)
         self.count, self.breaks, self.text, self.log, self.busy = 0, 0, b"", [], []
+        self.ticks = 0  # clocks since reset
         self.stamp = f"expr /d sim_ticks;{BUSY}" if measured else "expr /d sim_ticks"
         self.command("uart0_check_often=1")
         self.command("var odd\nvar heard\nvar spoil\nvar every\nodd=0\nheard=0\nspoil=0\nevery=0xffffffff")
@@ -201,7 +203,7 @@ class Chip:
 
     @property
     def cycles(self):
-        return self.value("sim_ticks") // CLOCKS
+        return self.clocks(self.value("sim_ticks")) // CLOCKS
 
     def run_to(self, label, seconds=60, times=1):
         """Run until the function label is entered, for the times-th time; what happened meanwhile is in self.log."""
@@ -227,11 +229,16 @@ class Chip:
             self.step(int(cycle - self.log[-1][2]) // 2)
 
     def take_log(self, text):
-        for code, value, ticks in re.findall(r"^(8[0-489])000([01])\n(\d+)$", text, re.M):
+        for code, value, ticks in re.findall(r"^(8[0-489])000([01])\n(-?\d+)$", text, re.M):
             if code == "80":
                 self.busy.append((self.log[-1][2], int(ticks) / CLOCKS))
             else:
-                self.log.append((KINDS[int(code)], int(value), int(ticks) / CLOCKS))
+                self.log.append((KINDS[int(code)], int(value), self.clocks(ticks) / CLOCKS))
+
+    def clocks(self, told):
+        """-> clocks since reset, from what the simulator tells."""
+        self.ticks += ((int(told) - self.ticks + 0x80000000) & 0xFFFFFFFF) - 0x80000000
+        return self.ticks
 
     def times(self):
         """(all, in interrupts) since the start, machine cycles."""

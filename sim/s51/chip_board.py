@@ -45,7 +45,7 @@ class Board(s51.Chip):
         """All of it, then look at the clock."""
         text = self.command("\n".join([*lines, "expr /d 860000", "expr /d sim_ticks"]), seconds)
         self.take_log(text)
-        self.now = int(re.findall(r"^860000\n(\d+)$", text, re.M)[-1]) // s51.CLOCKS
+        self.now = self.clocks(re.findall(r"^860000\n(-?\d+)$", text, re.M)[-1]) // s51.CLOCKS
 
     def until(self, label, condition="1"):
         """Lines that run until label is entered: "3" for the third time, "1 if x==2" when x is 2."""
@@ -57,9 +57,9 @@ class Board(s51.Chip):
 
     def take_log(self, text):
         super().take_log(text)
-        for place, value, ticks in re.findall(r"^8([45])0(\d{3})\n(\d+)$", text, re.M):
+        for place, value, ticks in re.findall(r"^8([45])0(\d{3})\n(-?\d+)$", text, re.M):
             self.outputs[int(place) - 4] = int(value)
-            self.written.append((int(ticks) / s51.CLOCKS, int(place) - 4, int(value)))
+            self.written.append((self.clocks(ticks) / s51.CLOCKS, int(place) - 4, int(value)))
 
     # ---- the board ----
 
@@ -86,7 +86,7 @@ class Board(s51.Chip):
     def power(self, switches):
         """-> when the baud search has come to this line's rate and the line has been silent for T_SYN. A closed switch
         pulls its pin of P1 to ground."""
-        self.log, self.written, self.outputs = [], [], {}
+        self.log, self.written, self.outputs, self.ticks = [], [], {}, 0
         self.do("fill iram 0 0xff 0xa5", "reset", f"set mem sfr 0x90 0x{~switches & 0x7f | 0x80:x}",
                 *self.until(LOOP, f"1 if RCAP2L=={256 - self.n}"), *self.until_later(2 * T_SYN * self.bit))
 
