@@ -23,7 +23,6 @@ static uint8_t XDATA pending_rooms[3][FDL_ROOM(FIXED_LEN)];
 
 static uint8_t len;
 static uint8_t flags; /* DDLM_EXT_DIAG, DDLM_STAT_DIAG */
-static volatile bool news; /* there has been a new diagnosis since a master began to ask for it */
 
 void ddlm_diag_init(void)
 {
@@ -77,15 +76,15 @@ void ddlm_diag_update(void)
 
 void ddlm_diag_ask_isr(void) IN_ISR
 {
-    news = false;
-    if (fdl_box_waits_isr() && (fdl_waiting_isr(SAP_SET_PRM) || fdl_waiting_isr(SAP_CHK_CFG)))
+    if (fdl_waiting_isr(SAP_SET_PRM)) /* or for Chk_Cfg, the only SAP above */
         fdl_req.reply = &pending_reply;
 }
 
-/* The owner has the news; anybody else may look without taking them away. */
+/* The owner has the news, unless there are newer ones; anybody else may look without taking them away. */
 void ddlm_diag_read_isr(void) IN_ISR
 {
-    if (fdl_req.reply == &ddlm_diag_reply && fdl_req.sa == ddlm.master && !news && !(flags & DDLM_STAT_DIAG))
+    if (fdl_req.reply == &ddlm_diag_reply && fdl_req.sa == ddlm.master && !(ddlm_diag_reply.is & FDL_FRESH) &&
+        !(flags & DDLM_STAT_DIAG))
         fdl_reply_priority_isr(&ddlm_input_reply, FDL_UPDATE_LOW);
 }
 
@@ -94,7 +93,6 @@ static void raise_flag(void)
 {
     uint8_t irq = hal_irq_save();
 
-    news = true;
     fdl_reply_priority_isr(&ddlm_input_reply, FDL_UPDATE_HIGH);
     hal_irq_restore(irq);
 }

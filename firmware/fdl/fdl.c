@@ -88,11 +88,6 @@ static void box_isr(void) IN_ISR
     box_in = next_box_isr(box_in);
 }
 
-bool fdl_box_waits_isr(void) IN_ISR
-{
-    return box_out != box_in;
-}
-
 bool fdl_waiting_isr(uint8_t dsap) IN_ISR
 {
     uint8_t i;
@@ -100,7 +95,7 @@ bool fdl_waiting_isr(uint8_t dsap) IN_ISR
 
     for (i = box_out; i != box_in; i = next_box_isr(i)) {
         ind = &boxes[i].ind;
-        if (ind->dsap == dsap && ind->sa == fdl_req.sa)
+        if (ind->dsap >= dsap && ind->sa == fdl_req.sa)
             return true;
     }
     return false;
@@ -199,11 +194,8 @@ static void take_reply_isr(void) IN_ISR
         fdl_turn_isr(reply);
     if (fdl_plan.is & FDL_SINGLE)
         reply->is &= (uint8_t)~FDL_VALID;
-    if (fdl_plan.late) {
+    if (fdl_plan.late)
         fdl_tx_build_isr(reply->sent);
-        phy_tx.at = reply->sent->octets + reply->sent->octets[2];
-        phy_tx.len = reply->sent->frame_len;
-    }
 }
 
 /* The answer given before; where its room has been given up since (Freeze takes newer inputs), the one planned. */

@@ -132,18 +132,18 @@ void fdl_data_ind(const struct fdl_ind XDATA *ind);
 /* An update buffer: the answer to the next SRD. Three rooms turn: one was sent last (and is kept for the master's
  * retry), one is ready, one is being written by the main loop.
  *
- *   room   | length sum start | SD LE LEr SD DA SA FC DAE SAE | L_sdu ......... | FCS ED |
+ *   room   | length sum | SD LE LEr SD DA SA FC DAE SAE | L_sdu ......... | FCS ED |
  *
- * A whole frame stands in a room beforehand, from `start` on: the answer to the header that was answered last. Only
- * where another one asks, or asks in another way, is it built around the data anew.
+ * A whole frame stands in a room beforehand, up to ED: the answer to the header that was answered last. Only where
+ * another one asks, or asks in another way, is it built around the data anew.
  * Invariants: sent, ready and spare are the three rooms, in any order; a room with frame_len != 0 holds the answer to
  * da, sa, dsap, ssap with the priority of `is`. */
-#define FDL_ROOM_HEAD 12u
+#define FDL_ROOM_HEAD 11u
 #define FDL_ROOM_TAIL 2u
 #define FDL_ROOM(lsdu_max) ((lsdu_max) + FDL_ROOM_HEAD + FDL_ROOM_TAIL)
 
-#define FDL_HIGH   0x01u /* answer DH instead of DL                  */
-#define FDL_SINGLE 0x02u /* Transmit = single: gone once sent        */
+#define FDL_SINGLE 0x01u /* Transmit = single: gone once sent        */
+#define FDL_HIGH   0x02u /* answer DH instead of DL                  */
 #define FDL_FRESH  0x04u /* ready is newer than sent                 */
 #define FDL_HOLD   0x08u /* keep on answering with sent (DP: freeze) */
 #define FDL_VALID  0x10u /* there is something to answer with        */
@@ -153,14 +153,15 @@ struct fdl_room {
     uint8_t frame_len; /* 0: the frame is still to be built */
 };
 struct fdl_reply {
+    uint8_t sa, da; /* of the request that is answered */
+    uint8_t dsap;   /* with FDL_AS_SD3                 */
+    uint8_t ssap;
     uint8_t is; /* FDL_FRESH ... */
     struct fdl_room PAGED *sent;
     struct fdl_room PAGED *ready;
     struct fdl_room PAGED *spare;
     struct fdl_room rooms[3];
-    uint8_t da, sa;     /* of the request that is answered */
-    uint8_t dsap, ssap; /* with FDL_AS_SD3 in dsap         */
-    uint8_t max;        /* longest L_sdu                   */
+    uint8_t max; /* longest L_sdu */
 };
 
 /* Bind a reply to three rooms of FDL_ROOM(max) octets laid one after the other at rooms; empty. max 0..246; asked
@@ -188,7 +189,7 @@ struct fdl_sap {
 bool fdl_sap_set(uint8_t sap, const struct fdl_sap PAGED *how);
 bool fdl_sap_clear(uint8_t sap);
 
-/* The active SAP's row, or 0. isr, lock. */
+/* The SAP's row; of one that is not active, a row without services. sap < FDL_SAP_NUMBERS. isr, lock. */
 struct fdl_sap PAGED *fdl_sap_row_isr(uint8_t sap) IN_ISR;
 
 /* FDL_REPLY_UPDATE.request / .confirm -> enum fdl_l_status. The L_sdu is copied and will answer the next SRD to ssap,
@@ -243,10 +244,8 @@ uint8_t fdl_ask_isr(void) IN_ISR;
  * once for each request, when its answer is out or will not go out; not if its SAP has been deactivated since. isr. */
 void fdl_ind_isr(void) IN_ISR;
 
-/* Is there any indication that the main loop has not dealt with yet? isr. */
-bool fdl_box_waits_isr(void) IN_ISR;
-
-/* Is there one for SAP dsap, from the station of fdl_req? isr. */
+/* Is there an indication that the main loop has not dealt with yet, for SAP dsap or one of a higher number, from the
+ * station of fdl_req? isr. */
 bool fdl_waiting_isr(uint8_t dsap) IN_ISR;
 
 /* Keep the L_sdu of fdl_req beyond this interrupt: FDL takes `exchange`, a buffer got from this function before, for

@@ -28,14 +28,15 @@ const CODE uint8_t fdl_functions[FDL_FC_FUNCTION + 1u] = {
 /* ---- the answer ------------------------------------------------------------------------------------------ */
 
 /* Has the reply been answering somebody else, or another SAP? Then its frames are nobody's. */
-static void readdress_isr(struct fdl_reply PAGED *reply) IN_ISR
+static void readdress_isr(void) IN_ISR
 {
-    uint8_t dsap = fdl_req.dsap | fdl_req.sd3;
+    struct fdl_reply PAGED *reply = fdl_req.reply;
+    const uint8_t dsap = fdl_req.dsap | fdl_req.sd3;
 
-    if (reply->da == fdl_header.da && reply->sa == fdl_header.sa && reply->dsap == dsap && reply->ssap == fdl_req.ssap)
+    if (reply->sa == fdl_header.sa && reply->da == fdl_header.da && reply->dsap == dsap && reply->ssap == fdl_req.ssap)
         return;
-    reply->da = fdl_header.da;
     reply->sa = fdl_header.sa;
+    reply->da = fdl_header.da;
     reply->dsap = dsap;
     reply->ssap = fdl_req.ssap;
     fdl_void_frames_isr(reply);
@@ -65,7 +66,7 @@ static void no_frame_isr(struct fdl_room PAGED *room) IN_ISR
 
     if (len == 0)
         empty_isr();
-    else if ((uint8_t)(fdl_header.len - fdl_req.len) > FDL_LE_MAX - len)
+    else if ((uint8_t)(fdl_header.len - fdl_req.len + len) > FDL_LE_MAX) /* at most 251 */
         refuse_isr(FDL_UE); /* our choice: asked with SAPs, they leave no room for so many data */
     else if (room == reply->sent && fdl_last.reply == reply)
         fdl_plan.late = true;
@@ -73,30 +74,32 @@ static void no_frame_isr(struct fdl_room PAGED *room) IN_ISR
         fdl_tx_build_isr(room);
 }
 
+static void room_isr(struct fdl_room PAGED *room) IN_ISR
+{
+    phy_tx.len = room->frame_len;
+    if (phy_tx.len)
+        phy_tx.at = room->octets + (uint8_t)(FDL_ROOM(room->octets[0]) - phy_tx.len);
+    else
+        no_frame_isr(room);
+}
+
 /* An SRD, Ident or LSAP status is answered from fdl_req.reply. */
 static void reply_isr(void) IN_ISR
 {
     struct fdl_reply PAGED *reply = fdl_req.reply;
-    struct fdl_room PAGED *room = reply->sent;
 
     fdl_plan.late = false;
     fdl_plan.is = reply->is;
+    if (fdl_plan.is & FDL_HOLD)
+        fdl_plan.is &= (uint8_t)~FDL_FRESH;
     if (!(fdl_plan.is & FDL_VALID)) {
         fdl_plan.is = 0;
         fdl_tx_short_isr();
-        return;
+    } else if (fdl_plan.is & FDL_FRESH) {
+        room_isr(reply->ready);
+    } else {
+        room_isr(reply->sent);
     }
-    if (fdl_plan.is & FDL_HOLD)
-        fdl_plan.is &= (uint8_t)~FDL_FRESH;
-    if (fdl_plan.is & FDL_FRESH)
-        room = reply->ready;
-    if (!room->frame_len) {
-        no_frame_isr(room);
-        if (!room->frame_len)
-            return;
-    }
-    phy_tx.len = room->frame_len;
-    phy_tx.at = room->octets + room->octets[2];
 }
 
 /* ---- the decision ---------------------------------------------------------------------------------------- */
@@ -104,9 +107,9 @@ static void reply_isr(void) IN_ISR
 /* What the SAP's row says -> FDL_OK or the refusal. */
 static uint8_t decide_isr(void) IN_ISR
 {
-    struct fdl_sap PAGED *row = fdl_sap_row_isr(fdl_req.dsap);
+    const struct fdl_sap PAGED *row = &fdl_rows[fdl_row_of[fdl_req.dsap]];
 
-    if (!row || !(row->services & fdl_req.service))
+    if (!(row->services & fdl_req.service))
         return FDL_RS;
     if (row->access != FDL_ALL && row->access != fdl_req.sa)
         return FDL_RS;
@@ -162,7 +165,7 @@ static void answer_isr(void) IN_ISR
         refuse_isr(result);
     } else if (fdl_req.reply) {
         if (!fdl_plan.same || fdl_req.reply != fdl_plan.row_reply)
-            readdress_isr(fdl_req.reply);
+            readdress_isr();
         reply_isr();
     } else if (fdl_req.service == FDL_NUMBERLESS) {
         fdl_tx_status_isr();

@@ -55,11 +55,14 @@ void fdl_tx_fixed_isr(uint8_t function) IN_ISR;    /* SD1                       
 void fdl_tx_status_isr(void) IN_ISR;               /* SD1: OK                                                   */
 void fdl_tx_keep_isr(void) IN_ISR;                 /* the SD1 built last is kept: the next one goes elsewhere   */
 
-void fdl_tx_build_isr(struct fdl_room PAGED *room) IN_ISR; /* the frame in a room, around an L_sdu that fits */
+void fdl_tx_build_isr(struct fdl_room PAGED *room) IN_ISR; /* in a room, around an L_sdu that fits                     */
 
 /* ---- fdl_sap: service access points ---- */
 
 void fdl_sap_reset(void);
+
+extern struct fdl_sap PAGED fdl_rows[FDL_SAPS + 1u];
+extern uint8_t XDATA fdl_row_of[FDL_SAP_NUMBERS]; /* SAP number -> index of fdl_rows */
 
 /* Update buffers that answer Ident, and LSAP status of SAP fdl_req.dsap (0: not active). */
 struct fdl_reply PAGED *fdl_ident_reply_isr(void) IN_ISR;

@@ -5,11 +5,12 @@
 #include "fdl/fdl_priv.h"
 #include "hal/hal.h"
 
-#define NO_ROW 0xFFu
+#define NO_ROW 0u /* the row of all SAPs that are not active: without services */
 
-static struct fdl_sap PAGED rows[FDL_SAPS];
-static uint8_t XDATA row_of[FDL_SAP_NUMBERS]; /* SAP number -> row, NO_ROW where not active */
-static uint8_t XDATA owner_of[FDL_SAPS];      /* row -> SAP number, NO_ROW where free        */
+struct fdl_sap PAGED fdl_rows[FDL_SAPS + 1u];
+uint8_t XDATA fdl_row_of[FDL_SAP_NUMBERS];
+static uint8_t XDATA owner_of[FDL_SAPS + 1u]; /* row -> SAP number */
+#define NOBODY 0xFFu
 
 #define IDENT_MAX 64u /* four length octets and four strings */
 #define LSAP_LEN  6u  /* Access, its extension, and an octet each for SDA SDN SRD CSRD */
@@ -26,18 +27,17 @@ void fdl_sap_reset(void)
     uint8_t i;
 
     for (i = 0; i < FDL_SAP_NUMBERS; i++)
-        row_of[i] = NO_ROW;
-    for (i = 0; i < FDL_SAPS; i++)
-        owner_of[i] = NO_ROW;
+        fdl_row_of[i] = NO_ROW;
+    for (i = 1; i <= FDL_SAPS; i++)
+        owner_of[i] = NOBODY;
+    fdl_rows[NO_ROW].services = 0;
     fdl_reply_init(&ident, ident_rooms[0], IDENT_MAX);
     fdl_reply_init(&lsap, lsap_rooms[0], LSAP_LEN);
 }
 
 struct fdl_sap PAGED *fdl_sap_row_isr(uint8_t sap) IN_ISR
 {
-    uint8_t row = row_of[sap];
-
-    return row == NO_ROW ? 0 : &rows[row];
+    return &fdl_rows[fdl_row_of[sap]];
 }
 
 static bool number_is_valid(uint8_t sap)
@@ -48,14 +48,14 @@ static bool number_is_valid(uint8_t sap)
 /* The row a SAP has or could have, NO_ROW when there is none left. */
 static uint8_t find_row(uint8_t sap)
 {
-    uint8_t row = row_of[sap];
+    uint8_t row = fdl_row_of[sap];
 
     if (row != NO_ROW)
         return row;
-    for (row = 0; row < FDL_SAPS; row++)
-        if (owner_of[row] == NO_ROW)
-            return row;
-    return NO_ROW;
+    for (row = FDL_SAPS; row != NO_ROW; row--)
+        if (owner_of[row] == NOBODY)
+            break;
+    return row;
 }
 
 bool fdl_sap_set(uint8_t sap, const struct fdl_sap PAGED *how)
@@ -71,9 +71,9 @@ bool fdl_sap_set(uint8_t sap, const struct fdl_sap PAGED *how)
         return false;
     irq = hal_irq_save();
     for (i = 0; i < sizeof *how; i++) /* SDCC's struct assignment is a library of its own */
-        ((uint8_t PAGED *)&rows[row])[i] = ((const uint8_t PAGED *)how)[i];
+        ((uint8_t PAGED *)&fdl_rows[row])[i] = ((const uint8_t PAGED *)how)[i];
     owner_of[row] = sap;
-    row_of[sap] = row;
+    fdl_row_of[sap] = row;
     fdl_replan_isr(0);
     hal_irq_restore(irq);
     return true;
@@ -85,12 +85,14 @@ bool fdl_sap_clear(uint8_t sap)
     uint8_t row;
     uint8_t irq;
 
-    if (!number_is_valid(sap) || row_of[sap] == NO_ROW)
+    if (!number_is_valid(sap))
         return false;
-    row = row_of[sap];
+    row = fdl_row_of[sap];
+    if (row == NO_ROW)
+        return false;
     irq = hal_irq_save();
-    row_of[sap] = NO_ROW;
-    owner_of[row] = NO_ROW;
+    fdl_row_of[sap] = NO_ROW;
+    owner_of[row] = NOBODY;
     if (fdl_req.dsap == sap)
         fdl_plan.handling = FDL_ANSWER_ONLY;
     fdl_replan_isr(0);
@@ -132,10 +134,8 @@ static void copy(uint8_t n)
 }
 
 /* The frame around new data is that around the data sent last, if they are as long: its octets before the data, and
- * FCS by the difference. The room sent last keeps its octets even if it becomes `ready` meanwhile; where an interrupt
- * writes to it, frame_len of all rooms is 0 afterwards. */
-#define BEING_COPIED 1u
-
+ * FCS by the difference. The room sent last keeps its octets even if it becomes `ready` meanwhile; where another
+ * requester comes, frame_len of all rooms is 0 afterwards. */
 void fdl_reply_write(struct fdl_reply PAGED *reply, const uint8_t XDATA *lsdu, uint8_t len, uint8_t how)
 {
     uint8_t fcs;
@@ -143,7 +143,7 @@ void fdl_reply_write(struct fdl_reply PAGED *reply, const uint8_t XDATA *lsdu, u
 
     room = reply->spare;
     model = reply->sent;
-    room->frame_len = BEING_COPIED;
+    room->frame_len = model->frame_len;
     to = room->octets;
     from = model->octets;
     copy(FDL_ROOM_HEAD);
@@ -157,11 +157,9 @@ void fdl_reply_write(struct fdl_reply PAGED *reply, const uint8_t XDATA *lsdu, u
     to = room->octets;
     to[0] = len;
     to[1] = sum;
-    irq = hal_irq_save();
-    if (room->frame_len && len == from[0])
-        room->frame_len = model->frame_len;
-    else
+    if (len != from[0])
         room->frame_len = 0;
+    irq = hal_irq_save();
     reply->spare = reply->ready;
     reply->ready = room;
     reply->is = (uint8_t)((reply->is & ~FDL_SINGLE) | FDL_FRESH | FDL_VALID | (how & FDL_SINGLE));
@@ -190,7 +188,7 @@ uint8_t fdl_reply_update(uint8_t ssap, const uint8_t XDATA *lsdu, uint8_t len, u
     irq = hal_irq_save();
     row = fdl_sap_row_isr(ssap);
     hal_irq_restore(irq);
-    if (!row || !row->reply)
+    if (!row->services || !row->reply)
         return FDL_L_LS;
     if (len > row->reply->max)
         return FDL_L_LR;
@@ -243,9 +241,9 @@ struct fdl_reply PAGED *fdl_lsap_reply_isr(void) IN_ISR
 {
     struct fdl_sap PAGED *row = fdl_sap_row_isr(fdl_req.dsap);
 
-    if (!row)
-        return 0;
     offered = row->services;
+    if (!offered)
+        return 0;
     lsap_rooms[0][0] = 0;
     lsap_rooms[0][1] = 0;
     fdl_void_frames_isr(&lsap);

@@ -20,6 +20,8 @@ static uint8_t XDATA short_ack[1];
 /* By name and in internal RAM, not as arguments: see struct fdl_header. */
 static uint8_t XDATA *HOT at;
 static HOT uint8_t sum;
+static HOT uint8_t le;
+static HOT uint8_t around; /* the octets that it counts */
 
 static void put_isr(uint8_t octet) IN_ISR
 {
@@ -111,23 +113,19 @@ void fdl_reply_priority_isr(struct fdl_reply PAGED *reply, uint8_t priority) IN_
  * extension bit, its SSAP our DAE. */
 void fdl_tx_build_isr(struct fdl_room PAGED *room) IN_ISR
 {
-    uint8_t start = (uint8_t)(FDL_ROOM_HEAD - 4u - fdl_header.len + fdl_req.len); /* before SD2 DA SA FC DAE SAE */
-    uint8_t le;
-
-    fdl_void_frames_isr(fdl_req.reply); /* main may just be copying from this one */
     at = room->octets;
-    le = (uint8_t)(at[0] + FDL_ROOM_HEAD - 4u - start);
+    le = (uint8_t)(fdl_header.len - fdl_req.len + at[0]);
+    around = 6;
+    if (fdl_req.sd3 && le == 3u + FDL_SD3_DU)
+        around = 3;
+    phy_tx.len = (uint8_t)(le + around);
+    room->frame_len = phy_tx.len;
     sum = (uint8_t)(at[1] + fdl_header.sa + fdl_header.da);
-    if (fdl_req.sd3 && le == 3u + FDL_SD3_DU) {
-        start = (uint8_t)(start + 3u);
-        room->frame_len = 3u + FDL_SD3_DU + 3u;
-        at[2] = start;
-        at += start;
+    at += (uint8_t)(FDL_ROOM(at[0]) - phy_tx.len);
+    phy_tx.at = at;
+    if (around == 3) {
         *at++ = FDL_SD3;
     } else {
-        room->frame_len = (uint8_t)(le + 6u);
-        at[2] = start;
-        at += start;
         *at++ = FDL_SD2;
         *at++ = le;
         *at++ = le;
@@ -135,12 +133,18 @@ void fdl_tx_build_isr(struct fdl_room PAGED *room) IN_ISR
     }
     *at++ = fdl_header.sa;
     *at++ = fdl_header.da;
-    put_isr(fdl_plan.is & FDL_HIGH ? FDL_DH : FDL_DL);
-    if (fdl_header.sa & FDL_ADDRESS_EXT)
-        put_isr(fdl_req.ssap);
-    if (fdl_header.da & FDL_ADDRESS_EXT)
-        put_isr(fdl_req.dsap);
-    at += room->octets[0];
+    le = FDL_DL | (fdl_plan.is & FDL_HIGH);
+    *at++ = le;
+    sum = (uint8_t)(sum + le);
+    if (fdl_header.sa & FDL_ADDRESS_EXT) {
+        *at++ = fdl_req.ssap;
+        sum = (uint8_t)(sum + fdl_req.ssap);
+    }
+    if (fdl_header.da & FDL_ADDRESS_EXT) {
+        *at++ = fdl_req.dsap;
+        sum = (uint8_t)(sum + fdl_req.dsap);
+    }
+    at += *(at - FDL_ROOM_HEAD);
     *at++ = sum;
     *at = FDL_ED;
 }

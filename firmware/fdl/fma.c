@@ -192,7 +192,7 @@ uint8_t fma_lsap_status(uint8_t sap, struct fdl_sap PAGED *to)
     irq = hal_irq_save();
     row = fdl_sap_row_isr(sap);
     hal_irq_restore(irq);
-    if (!row)
+    if (!row->services)
         return FMA_LS;
     *to = *row;
     return FMA_OK;
