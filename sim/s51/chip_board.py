@@ -110,8 +110,7 @@ class Board(s51.Chip):
 
     def last_octet_in(self):
         """When the last octet of the telegram asked last had come, machine cycles."""
-        written = [t for kind, _, t in self.log if kind == "TX"] or [self.now]
-        return [t for kind, value, t in self.log if kind == "RI" and value == 1 and t < written[0]][-1]
+        return s51.arrivals(self.log)[-1]
 
     def turn(self):
         """From there to the first octet of the answer, machine cycles."""
