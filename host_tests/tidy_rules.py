@@ -29,7 +29,7 @@ CASES = {
     "a variable whose address is given away is stored": (
         f"mov a,dpl / {S} / movx @dptr,a / mov _g,#_f_x_65536_1 / ret", SAME),
     "a variable whose address a call gets is stored": (
-        f"mov a,dpl / {S} / movx @dptr,a / lcall _elsewhere / ret", SAME),
+        f"mov a,dpl / {S} / movx @dptr,a / lcall _elsewhere / mov _g,#1 / ret", SAME),
     "a variable that DPTR goes on from to an unknown place is stored": (
         f"{S} / mov a,#1 / movx @dptr,a / mov a,_g / movc a,@a+dptr / mov _g,a / ret", SAME),
     "a variable that start-up names is stored": (
@@ -103,8 +103,23 @@ CASES = {
     "push and pop around one that does not": (
         "mov r7,dpl / push ar7 / lcall _c / pop ar7 / mov _g,r7 / mov _h,r7 / ret | _c:mov r7,#1 / mov _g,r7 / mov _h,r7 / ret",
         "mov r7,dpl / push ar7 / lcall _c / pop ar7 / mov _g,r7 / mov _h,r7 / ret"),
+    # ---- ways ----
+    "a call before the end is a jump": ("lcall _elsewhere / ret", "ljmp _elsewhere"),
+    "in an interrupt function it is a call": ("push acc / mov a,_g / mov _h,a / lcall _elsewhere / pop acc / reti", SAME),
+    "a jump to the end is the end": (
+        "jnb _bit,00101$ / mov _g,#1 / sjmp 00102$ / 00101$: / mov _g,#2 / 00102$: / ret",
+        "jnb _bit,00101$ / mov _g,#1 / ret / 00101$: / mov _g,#2 / ret"),
+    "a jump to a jump": (
+        "00100$: / jnb _bit,00101$ / sjmp 00100$ / 00101$: / sjmp 00100$", "00100$: / jnb _bit,00100$ / sjmp 00100$"),
+    "a branch around a jump": ("jz 00101$ / sjmp 00102$ / 00101$: / mov _g,#1 / 00102$: / mov _h,#1 / ret",
+                               "jnz 00102$ / mov _g,#1 / 00102$: / mov _h,#1 / ret"),
+    "a branch that takes the bit along is not turned round": (
+        "jbc _bit,00101$ / sjmp 00102$ / 00101$: / mov _g,#1 / 00102$: / mov _h,#1 / ret", SAME),
+    "what no way leads to": ("ljmp _elsewhere / mov _g,#1 / 00101$: / mov _h,#1 / ret", "ljmp _elsewhere"),
     # ---- left alone ----
     "written by hand": (";naked function: no prologue. / mov a,_g / mov a,_g / mov r7,a / ret", SAME),
+    "some of it written by hand": ("mov a,_g / mov a,_g / mov r7,a / ; x.c:3: __endasm; / ret", SAME),
+    "an address of a label": ("mov a,_g / mov a,_g / mov dptr,#00101$ / push dpl / push dph / ret / 00101$: / ret", SAME),
     "a table of jumps": ("mov a,_g / mov a,_g / mov dptr,#00101$ / jmp @a+dptr / 00101$: / ret", SAME),
     "a frame on the stack": ("push _bp / mov _bp,sp / mov a,_g / mov a,_g / mov r7,a / pop _bp / ret", SAME),
 }
@@ -142,7 +157,7 @@ def tidied(code, folder):
         text += f"{name}:\n" + lines_of(body)
     file = Path(folder) / "x.asm"
     file.write_text(text + "_caller:\n" + lines_of("lcall _f / 00101$: / sjmp 00101$"))
-    program = Program([str(file)], {"v", "w"})
+    program = Program([str(file)], {str(file): {"v", "w"}})
     tidy(program)
     function = next(f for f in program.functions if f.name == "_f")
     lines = [" ".join(line.text.split()) for line in function.lines if line.op or ";" in line.text or

@@ -256,11 +256,12 @@ class Chip:
         """Until the baud search has come to Timer 2's divisor n and the line has been silent for T_SYN."""
         for _ in range(400):
             if self.value("T2CON") == 0x34 and self.value("RCAP2L") == 256 - n:
-                break
+                self.run_to("phy_syn_ind_isr")
+                if self.value("RCAP2L") == 256 - n:  # it may have been the next rate's
+                    break
             self.step(4000)
         else:
             raise Stuck(f"no rate with N = {n}")
-        self.run_to("phy_syn_ind_isr")
         self.watch_driver()
 
     def ask(self, request, idle=40):

@@ -13,15 +13,6 @@ from asm import Program
 from whole import tidy
 
 
-def sources(paths):
-    """The C files that were compiled to IMAGE/PATH.asm, and every header but other processors'."""
-    for path in map(Path, paths):
-        ends = (Path(*path.parts[n:]).with_suffix(".c") for n in range(len(path.parts)))
-        yield next((end for end in ends if end.exists()), None) or sys.exit(f"{path}: made of no C file here")
-    for folder in ("firmware", "boards"):
-        yield from (header for header in Path(folder).rglob("*.h") if not header.match("hal/*/*.h") or header.match("mcs51/*"))
-
-
 def volatile_names(files):
     """Every name in a declaration that says volatile."""
     found = set()
@@ -32,8 +23,22 @@ def volatile_names(files):
     return found
 
 
+def volatile_in(paths):
+    """-> {path of an .asm file: names declared volatile in the C file it was made of, or in any header but other processors'}"""
+    headers = [header for folder in ("firmware", "boards") for header in Path(folder).rglob("*.h")
+               if not header.match("hal/*/*.h") or header.match("mcs51/*")]
+    everywhere, found = volatile_names(headers), {}
+    for path in paths:
+        ends = (Path(*Path(path).parts[n:]).with_suffix(".c") for n in range(len(Path(path).parts)))
+        source = next((end for end in ends if end.exists()), None)
+        if not source:
+            sys.exit(f"{path}: made of no C file here")
+        found[path] = everywhere | volatile_names([source])
+    return found
+
+
 def main(paths):
-    program = Program(paths, volatile_names(sources(paths)))
+    program = Program(paths, volatile_in(paths))
     tidy(program)
     program.write()
     return 0

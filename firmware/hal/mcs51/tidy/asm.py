@@ -139,7 +139,7 @@ def instruction(op, *args):
 class Function:
     def __init__(self, name, path, lines, bank):
         self.name, self.path, self.lines, self.bank = name, path, lines, bank
-        self.naked = any("naked function" in line.text for line in lines)
+        self.naked = any("naked function" in line.text or "__endasm" in line.text for line in lines)  # written by hand
         self.refresh()
 
     def refresh(self):
@@ -163,10 +163,11 @@ class Function:
                 self.away.add(line)
 
     def may_change(self):
-        """Written by hand, with a table of jumps or with a frame on the stack: left as it is."""
-        return not self.naked and not any(line.label for line in self.away) and not any(
+        """Written by hand, with a table of jumps, a label's address or a frame on the stack: left as it is. Two underscores
+        are the compiler's own: vectors and start-up."""
+        return not self.naked and not self.name.startswith("__") and not any(line.label for line in self.away) and not any(
             line.op in ("jmp", ".db", ".byte", ".ascii") or line.op in CALLS and line.args[0].endswith("$") or
-            any(re.search(r"(?i)\b_?(bp|sp)\b", operand) for operand in line.args) for line in self.code)
+            any(re.search(r"(?i)\b_?(bp|sp)\b|#\d+\$", operand) for operand in line.args) for line in self.code)
 
     def drop(self, line):
         self.lines.remove(line)
@@ -179,7 +180,7 @@ class Function:
 class Program:
     """All files of an image. parts: {path: [Function or list of lines]}"""
 
-    def __init__(self, paths, volatile=()):
+    def __init__(self, paths, volatile):
         self.parts = {path: self._split(path, Path(path).read_text()) for path in paths}
         self.functions = [p for parts in self.parts.values() for p in parts if isinstance(p, Function)]
         self._own = {(f.path, f.name): f for f in self.functions}
@@ -242,7 +243,7 @@ class Program:
                 if line.label and area in ("DSEG", "OSEG", "ISEG", "PSEG", "XSEG", "BSEG"):
                     kinds[line.label] = area
                     local = LOCAL.match(line.label)
-                    if "/hal/mcs51/" in path and not local or self._may_be(line.label, volatile):
+                    if "/hal/mcs51/" in path and not local or self._may_be(line.label, volatile[path]):
                         asm.add(line.label)
         for f in self.functions:
             if f.naked:

@@ -1,6 +1,7 @@
 """The rules over a whole program: callees before their callers, each as long as anything changes."""
 from flow import Flow
 from homes import find_homes
+from jumps import Ways
 from own import own_memory
 from simpler import Simplifier
 from unread import Unread
@@ -45,6 +46,8 @@ def tidy(program):
 
 def improve(program, flow, function):
     for _ in range(ROUNDS):
-        changed = Simplifier(program, flow, function, own_memory(program, flow, function)).run()
-        if not Unread(program, flow, function, own_memory(program, flow, function)).run() and not changed:
+        ways = Ways(function).run()
+        simpler = Simplifier(program, flow, function, own_memory(program, flow, function)).run()
+        unread = Unread(program, flow, function, own_memory(program, flow, function)).run()
+        if not (ways or simpler or unread):
             break
