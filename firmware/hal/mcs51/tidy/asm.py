@@ -4,6 +4,7 @@ Registers are bits of a number: A B C (carry) F (other flags) DPL DPH and R0 to 
 Memory is written as cells: (symbol, offset).
 """
 import re
+from functools import lru_cache
 from pathlib import Path
 
 NAMES = ("a", "b", "c", "f", "dpl", "dph", "r0", "r1", "r2", "r3", "r4", "r5", "r6", "r7")
@@ -22,6 +23,7 @@ CODE_AREAS = ("CSEG", "HOME")
 BRANCHES = {"jz", "jnz", "jc", "jnc", "jb", "jnb", "jbc", "cjne", "djnz"}
 JUMPS = {"ljmp", "sjmp", "ajmp"}
 CALLS = {"lcall", "acall"}
+GO = BRANCHES | JUMPS | CALLS
 RETURNS = {"ret", "reti"}
 ENDS = JUMPS | RETURNS | {"jmp", ".db", ".byte", ".ascii"}
 ALIASES = {"acc": "a", "_ACC": "a", "_B": "b", "_DPL": "dpl", "_DPH": "dph", "_CY": "c", "cy": "c", "_P": "a", "p": "a",
@@ -29,6 +31,7 @@ ALIASES = {"acc": "a", "_ACC": "a", "_B": "b", "_DPL": "dpl", "_DPH": "dph", "_C
 FLAGS = {"ov", "_OV", "ac", "_AC", "f0", "_F0", "_F1", "rs0", "rs1", "_RS0", "_RS1"}
 
 
+@lru_cache(None)
 def cell(operand):
     """(symbol, offset) of `_x` and `(_x + 3)`, None of anything else"""
     if SYMBOL.match(operand):
@@ -42,6 +45,7 @@ def spelled(where):
     return f"({symbol} + 0x{offset:04x})" if offset else symbol
 
 
+@lru_cache(None)
 def register(operand):
     """BIT of an operand that is a register or a bit of one; 0: none"""
     name = operand.lstrip("/").split(".")[0]
@@ -68,7 +72,7 @@ def used(operand):
 class Line:
     """An instruction (op, args), a label (label), or anything else (text alone)."""
 
-    __slots__ = ("text", "label", "op", "args", "where", "reads", "writes")
+    __slots__ = ("text", "label", "op", "args", "where", "reads", "writes", "goes_to")
 
     def __init__(self, text):
         self.text, self.label, self.op, self.args = text, None, None, ()
@@ -82,6 +86,7 @@ class Line:
             self.op = words[0].lower()
             self.args = tuple(" ".join(p.split()) for p in words[1].split(",")) if len(words) > 1 else ()
         self.reads, self.writes = self._effects() if self.op else (0, 0)
+        self.goes_to = self.args[-1] if self.op in GO else None  # where it calls, jumps or branches
 
     def _effects(self):
         op, args = self.op, self.args
@@ -119,9 +124,6 @@ class Line:
 
     def same(self, op, *args):
         return self.op == op and self.args == args
-
-    def target(self):
-        return self.args[-1] if self.op in BRANCHES | JUMPS | CALLS else None
 
     def selects_bank(self):
         """Of an instruction that may select a register bank: the bank's number, -1: not known. None: it does not."""

@@ -32,7 +32,7 @@ class Flow:
     # ---- calls ----
 
     def callee(self, function, line):
-        return self.program.resolve(function, line.target())
+        return self.program.resolve(function, line.goes_to)
 
     def summary_of_call(self, function, line):
         found = self.callee(function, line)
@@ -60,7 +60,7 @@ class Flow:
 
     def leaves(self, function, line):
         """Does it call, or jump to another function?"""
-        target = line.target()
+        target = line.goes_to
         return target is not None and (line.op in CALLS or not target.endswith("$"))
 
     @staticmethod
@@ -77,7 +77,7 @@ class Flow:
     def after(self, function, n, live, at_end):
         """What is wanted behind the n-th instruction. live: what is wanted before each; at_end: when it returns"""
         line = function.code[n]
-        op, target = line.op, line.target()
+        op, target = line.op, line.goes_to
         if op == "reti":
             return (ALL & ~BANK if function.naked else ALL) | at_end
         if op == "ret":

@@ -55,7 +55,7 @@ def _free(flow, function, cells, live, bit):
 
 
 def _there(function, line, live):
-    return live[function.labels[line.target()]] if line.target() in function.labels else 0
+    return live[function.labels[line.goes_to]] if line.goes_to in function.labels else 0
 
 
 def _move(function, cells, bit, home):

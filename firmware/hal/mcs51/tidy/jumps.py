@@ -57,7 +57,7 @@ class Ways:
             function.drop(following)
         elif line.op in CALLS and following.op == "ret" and not function.interrupt and line.args[0].startswith("_"):
             function.put(line, instruction("ljmp", line.args[0]))
-        elif line.op in JUMPS | BRANCHES and line.target() in function.labels:
+        elif line.op in JUMPS | BRANCHES and line.goes_to in function.labels:
             return self._jump(n, line, following, labels)
         else:
             return False
@@ -70,21 +70,21 @@ class Ways:
         return True
 
     def _jump(self, n, line, following, labels):
-        function, target = self.function, line.target()
+        function, target = self.function, line.goes_to
         if line.op in JUMPS and target in labels:
             function.drop(line)
             return True
         there, _ = self._behind(function.labels[target])
         if line.op in JUMPS and there.op == "ret":
             function.put(line, instruction("ret"))
-        elif there.op in JUMPS and there.target() != target and there is not line and self._can(n, line, there.target()):
-            function.put(line, instruction("ljmp" if line.op in JUMPS else line.op, *line.args[:-1], there.target()))
+        elif there.op in JUMPS and there.goes_to != target and there is not line and self._can(n, line, there.goes_to):
+            function.put(line, instruction("ljmp" if line.op in JUMPS else line.op, *line.args[:-1], there.goes_to))
         elif line.op == "ljmp" and self._reaches(n, target):
             function.put(line, instruction("sjmp", target))
         elif line.op in OPPOSITE and target not in labels and following.op in JUMPS and not labels \
-                and following.target() in function.labels and self._skips(n, target) and self._reaches(n, following.target()):
+                and following.goes_to in function.labels and self._skips(n, target) and self._reaches(n, following.goes_to):
             function.drop(following)
-            function.put(line, instruction(OPPOSITE[line.op], *line.args[:-1], following.target()))
+            function.put(line, instruction(OPPOSITE[line.op], *line.args[:-1], following.goes_to))
         else:
             return False
         return True

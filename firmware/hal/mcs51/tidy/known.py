@@ -9,6 +9,7 @@ Memory is followed only in variables that compiled C alone changes (Program.plai
 or an access to a port ends what is known of all but the function's own locals.
 """
 import re
+from functools import lru_cache
 from itertools import count
 
 from asm import BANK, BIT, BRANCHES, C, CALLS, DPTR, ENDS, JUMPS, NAMES, RETURNS, cell, register, unknown
@@ -29,6 +30,7 @@ def result(*of):
     return "made", results.setdefault(of, len(results))
 
 
+@lru_cache(None)
 def constant(operand):
     found = CONSTANT.match(operand)
     if found:
@@ -96,8 +98,8 @@ class Follower:
 
     def _loop_heads(self):
         code, labels = self.function.code, self.function.labels
-        return {line.target() for n, line in enumerate(code)
-                if line.op in JUMPS | BRANCHES and labels.get(line.target(), n + 1) <= n}
+        return {line.goes_to for n, line in enumerate(code)
+                if line.op in JUMPS | BRANCHES and labels.get(line.goes_to, n + 1) <= n}
 
     def walk(self, improve):
         reached = True
@@ -211,7 +213,7 @@ class Follower:
             self._branch(line)
             return
         if op in JUMPS:
-            self._remember(line.target(), now)
+            self._remember(line.goes_to, now)
             return
         if op in CALLS:
             now.forget(self.flow.changed_by(self.function, line))
@@ -254,7 +256,7 @@ class Follower:
             (there if op == "jz" else now).replace(now.of("a"), ("#", 0))
         if op in ("jc", "jnc"):
             there.held["c"], now.held["c"] = (("#", 1), ("#", 0)) if op == "jc" else (("#", 0), ("#", 1))
-        self._remember(line.target(), there)
+        self._remember(line.goes_to, there)
 
     def _remember(self, label, known):
         before = self.at_labels.get(label)

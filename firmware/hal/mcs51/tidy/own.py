@@ -42,8 +42,8 @@ def _escaping(flow, function, mine):
         if line.op == "mov" and line.args[0] == "dptr":
             after = {(symbol, half) for symbol in mine & set(NAME.findall(line.args[1])) for half in (DPL, DPH)}
         following = [n + 1] if line.op not in ENDS else []
-        if line.op in JUMPS | BRANCHES and line.target() in function.labels:
-            following.append(function.labels[line.target()])
+        if line.op in JUMPS | BRANCHES and line.goes_to in function.labels:
+            following.append(function.labels[line.goes_to])
         for other in following:
             if not after <= held[other]:
                 held[other] |= after

@@ -27,17 +27,15 @@ class Unread:
         function = self.function
         cells = Cells(self.flow, function, self.own)
         live = live_with_cells(self.flow, function, cells)
-        for n in range(len(function.code) - 1, -1, -1):
-            line = function.code[n]
-            if not line.op or line.label or line in function.away or line in function.switches:
-                continue
-            if self._is_unread(line, live[n + 1], cells.memory[line]):
-                function.drop(line)
-            elif not (self._passed_on(n, live) or self._saved_for_nothing(n, live)):
-                continue
+        ours = [n for n, line in enumerate(function.code)
+                if line.op and not line.label and line not in function.away and line not in function.switches]
+        unread = [function.code[n] for n in ours if self._is_unread(function.code[n], live[n + 1], cells.memory[function.code[n]])]
+        for line in unread:
+            function.drop(line)
+        changed = unread or any(self._passed_on(n, live) or self._saved_for_nothing(n, live) for n in reversed(ours))
+        if changed:
             function.refresh()
-            return True
-        return False
+        return changed
 
     def _is_unread(self, line, wanted, memory):
         if line.op not in NO_EFFECT or any(self._port(operand) for operand in line.args):
@@ -73,7 +71,7 @@ class Unread:
             if user.label or not user.op or user.op in CALLS or user in self.function.away:
                 return False
             if user.reads & line.writes:
-                wanted = live[m + 1] | live[self.function.labels.get(user.target(), m + 1)]
+                wanted = live[m + 1] | live[self.function.labels.get(user.goes_to, m + 1)]
                 return self._direct(line, source, user, wanted, m == n + 1)
             if user.writes & (line.writes | self._read_by(source)) or user.op in ENDS | BRANCHES or self._changes(user, source):
                 return False
