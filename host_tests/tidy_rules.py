@@ -88,6 +88,21 @@ CASES = {
         "mov a,_g / 00101$: / add a,_h / mov _p,a / mov a,_g / djnz r7,00101$ / ret", SAME),
     "behind jz A is zero": ("mov a,_g / jz 00101$ / ret / 00101$: / clr a / mov _p,a / ret",
                             "mov a,_g / jz 00101$ / ret / 00101$: / mov _p,a / ret"),
+    "the next octet of a structure": (
+        "mov a,#0x0d / add a,r6 / mov r1,a / movx a,@r1 / mov _g,a / mov a,#0x0e / add a,r6 / mov r1,a / movx a,@r1 / mov _h,a / ret",
+        "mov a,#0x0d / add a,r6 / mov r1,a / movx a,@r1 / mov _g,a / inc r1 / movx a,@r1 / mov _h,a / ret"),
+    "its carry is wanted": (
+        "mov a,#0x0d / add a,r6 / mov r1,a / movx a,@r1 / mov _g,a / mov a,#0x0e / add a,r6 / mov r1,a / clr a / addc a,r7 / "
+        "movx @r1,a / ret",
+        "mov a,#0x0d / add a,r6 / mov r1,a / movx a,@r1 / mov _g,a / mov a,#0x0e / add a,r6 / inc r1 / clr a / addc a,r7 / "
+        "movx @r1,a / ret"),
+    "a copy in another register": (
+        "mov r3,_g / mov a,r3 / mov r6,a / lcall _c / mov a,_h / add a,r6 / mov _h,a / mov a,_p / add a,r6 / mov _p,a / ret | "
+        "_c:mov a,_x / mov _h,a / mov _p,a / ret",
+        "mov r3,_g / lcall _c / mov a,_h / add a,r3 / mov _h,a / mov a,_p / add a,r3 / mov _p,a / ret"),
+    "a copy that outlives its original": (
+        "mov r3,_g / mov a,r3 / mov r6,a / inc r3 / mov a,r3 / add a,r3 / mov _h,a / mov _p,r6 / mov _v,r6 / ret",
+        SAME),
     # ---- what nobody reads ----
     "a value that passes through a register": ("mov r7,_g / mov a,r7 / add a,_h / mov _p,a / ret",
                                                "mov a,_g / add a,_h / mov _p,a / ret"),

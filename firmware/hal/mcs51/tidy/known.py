@@ -42,6 +42,17 @@ def constant(operand):
     return ("text", operand) if operand.startswith("#") else None
 
 
+def plus(value, number):
+    """value + number, in eight bits"""
+    number = (number + 128) % 256 - 128
+    if value[0] == "#":
+        return "#", value[1] + number & 0xFF
+    if value[0] == "low":
+        return "low", value[1], value[2] + number
+    base, before = value[1:] if value[0] == "sum" else (value, 0)
+    return ("sum", base, before + number & 0xFF) if (before + number) & 0xFF else base
+
+
 def pointer(low, high):
     """(base, offset) of a DPTR with these halves"""
     if low[0] == "low" and high[0] == "high" and low[1:] == high[1:]:
@@ -69,6 +80,11 @@ class Known:
         if where not in self.held:
             self.held[where] = fresh()
         return self.held[where]
+
+    def put(self, where, value):
+        """The first in `held` has had its value for the longest time."""
+        self.held.pop(where, None)
+        self.held[where] = value
 
     def forget(self, registers):
         for name in NAMES:
@@ -167,16 +183,18 @@ class Follower:
         elif op in ("mov", "movx"):
             self._move(line, first, second)
         elif op in PURE and first == "a" and self.value(second):
-            made = result(op, *sorted((now.of("a"), self.value(second)), key=repr))
+            one, other = sorted((now.of("a"), self.value(second)), key=repr)
             now.forget(line.writes)
-            now.held["a"] = made
-        elif op in ("inc", "dec", "cpl", "swap", "rl", "rr") and self._register(first):
+            now.put("a", plus(other, one[1]) if op == "add" and one[0] == "#" else result(op, one, other))
+        elif op in ("inc", "dec") and self._register(first):
             name = self._register(first)
-            now.held[name] = result(op, now.of(name))
+            now.put(name, plus(now.of(name), 1 if op == "inc" else -1))
+        elif op in ("cpl", "swap", "rl", "rr") and self._register(first):
+            now.put(first, result(op, now.of(first)))
         elif op == "clr" and first in ("a", "c"):
-            now.held[first] = ("#", 0)
+            now.put(first, ("#", 0))
         elif op == "setb" and first == "c":
-            now.held["c"] = ("#", 1)
+            now.put("c", ("#", 1))
         else:
             self._other(line, first)
 
@@ -190,20 +208,20 @@ class Follower:
         if line.op == "movx":
             line.where = self.external(first if first != "a" else second)
             if first == "a":
-                now.held["a"] = now.of(line.where) if line.where else fresh()
+                now.put("a", now.of(line.where) if line.where else fresh())
             else:
                 if not line.where:
                     now.forget_memory(self.own)
                 else:
-                    now.held[line.where] = now.of("a")
+                    now.put(line.where, now.of("a"))
             return
         value = self.value(second) or fresh()
         name, where = self._register(first), self.cell_of(first)
         line.where = where if first.startswith("@") else self.cell_of(second) if second.startswith("@") else None
         if name and line.writes == BIT[name]:
-            now.held[name] = value
+            now.put(name, value)
         elif where:
-            now.held[where] = value
+            now.put(where, value)
         else:
             self._other(line, first)
 

@@ -5,12 +5,14 @@
   DPTR points there already, or one octet before    nothing, or inc dptr
   a store of what the place holds                   nothing
   mov a,X / add a,Y with Y in A before              add a,X
+  mov R,a with one more, or less, than R has        inc R, dec R
+  a copy in another register                        the one that has had it for longer: the copy may be unread then
   a branch on what is known                         a jump, or nothing
 
 None makes anything longer, nor slower.
 """
 from asm import instruction, register, unknown
-from known import Follower, constant, pointer
+from known import Follower, constant, plus, pointer
 
 COMMUTATIVE = ("add", "anl", "orl", "xrl")
 REGISTERS = [f"r{n}" for n in range(8)]
@@ -36,7 +38,10 @@ class Simplifier:
             return []
         new = self._better(line)
         if new is None:
-            return [line]
+            other = self._older(line)
+            if other is None:
+                return [line]
+            new = [other]
         self.changed = True
         self.function.put(line, *new)
         return new
@@ -84,6 +89,25 @@ class Simplifier:
         """A register of the bank that holds a value."""
         return next((r for r in REGISTERS if value and self.now.held.get(r) == value), None)
 
+    def _older(self, line):
+        """The instruction with the register in the place of another that has had the same value for longer."""
+        if line.op in ("push", "pop", "djnz", "xch", "xchd", "inc", "dec", "jmp") or line.args[-1:] == ("c",):
+            return None
+        args = list(line.args)
+        for place, operand in enumerate(args):
+            name = operand.lstrip("@").removeprefix("a") if operand != "a" else ""
+            reads = place > 0 or operand[0] == "@" or line.op == "cjne"
+            if name not in REGISTERS or not reads:
+                continue
+            value = self.now.held.get(name)
+            if line.op == "cjne" and place == 0 and value and self.now.held.get("a") == value:
+                args[place] = "a"
+                continue
+            choice = REGISTERS[:2] if operand[0] == "@" else REGISTERS
+            older = next((r for r in self.now.held if value and r in choice and self.now.held[r] == value), name)
+            args[place] = operand.replace(name, older)
+        return instruction(line.op, *args) if tuple(args) != line.args else None
+
     # ---- DPTR ----
 
     def _at(self):
@@ -124,6 +148,10 @@ class Simplifier:
             return None  # what a port is set to is looked for by the checks
         if self.now.held.get(name or where) == value:
             return []
+        if self._is_r(first) and second == "a" and self.now.held.get(first):  # A may be unread then
+            for op, step in (("inc", 1), ("dec", -1)):
+                if plus(self.now.held[first], step) == value:
+                    return [instruction(op, first)]
         return self._cheaper(first, second, value)
 
     def _cheaper(self, first, second, value):
