@@ -233,6 +233,7 @@ def play(n):
             bench.share("Data_Exchange, each 5 ms", "share_dx_5ms", (DX_7D, DX_5D), 5000)
         bench.share("for another, on and on", "share_foreign", (FOREIGN, FOREIGN))
         bench.longest()
+        bench.check("the rate", chip.value("RCAP2L") == 256 - n)  # the baud search has not left it
         return bench.rows, bench.stack()
 
 

@@ -20,7 +20,6 @@ IO_ADDRESS, NV_ADDRESS, NV_SIZE = 0x8000, 0x7FE0, 32  # boards/87c51fb/wiring.h
 LOOP = "dp_test01_poll"  # entered once a turn of the main loop
 SYN = "phy_syn_ind_isr"  # the line has been silent for T_SYN
 TURNS = 3                # of the main loop, and what a telegram has set going is done
-T_SYN = 33               # T_bit
 PATIENCE = 60            # seconds of the host's time for what is done at once
 
 
@@ -88,7 +87,7 @@ class Board(s51.Chip):
         pulls its pin of P1 to ground."""
         self.log, self.written, self.outputs, self.ticks = [], [], {}, 0
         self.do("fill iram 0 0xff 0xa5", "reset", f"set mem sfr 0x90 0x{~switches & 0x7f | 0x80:x}",
-                *self.until(LOOP, f"1 if RCAP2L=={256 - self.n}"), *self.until_later(2 * T_SYN * self.bit))
+                *self.until(LOOP, f"1 if RCAP2L=={256 - self.n}"), *self.until_later(2 * s51.T_SYN * self.bit))
 
     # ---- time ----
 
