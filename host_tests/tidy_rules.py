@@ -117,7 +117,29 @@ CASES = {
         "mov r7,dpl / lcall _c / mov _g,r7 / mov _h,r7 / ret"),
     "push and pop around one that does not": (
         "mov r7,dpl / push ar7 / lcall _c / pop ar7 / mov _g,r7 / mov _h,r7 / ret | _c:mov r7,#1 / mov _g,r7 / mov _h,r7 / ret",
-        "mov r7,dpl / push ar7 / lcall _c / pop ar7 / mov _g,r7 / mov _h,r7 / ret"),
+        "mov r2,dpl / lcall _c / mov _g,r2 / mov _h,r2 / ret"),
+    "push and pop around one that may change any register": (
+        "mov r7,dpl / push ar7 / lcall _elsewhere / pop ar7 / mov _g,r7 / mov _h,r7 / ret", SAME),
+    "in an interrupt function no other register is used": (
+        "push acc / push ar7 / lcall _c / pop ar7 / pop acc / reti | _c:mov a,_h / mov r7,a / add a,r7 / mov _g,a / mov _h,r7 / ret",
+        SAME),
+    "a bit of the function's own": ("mov _f_sloc0_1_0,c / clr a / rlc a / mov _g,a / ret", "clr a / rlc a / mov _g,a / ret"),
+    "a bit of the file": ("mov _bit,c / clr a / rlc a / mov _g,a / ret", SAME),
+    "and, or in a register": ("mov r6,_g / anl ar6,#0x0f / mov a,r6 / movx @r0,a / ret",
+                              "mov a,_g / anl a,#0x0f / movx @r0,a / ret"),
+    "a member of what a pointer that is a variable's points to": (
+        "mov ((_g + 0x0001) + 1),a / mov a,(_g + 0x0002) / mov _h,a / mov _p,a / ret",
+        "mov ((_g + 0x0001) + 1),a / mov _h,a / mov _p,a / ret"),
+    # ---- strides ----
+    "five octets on": (
+        "mov dpl,_p / mov dph,(_p + 1) / inc dptr / inc dptr / inc dptr / inc dptr / inc dptr / movx a,@dptr / mov _g,a / ret",
+        "mov a,_p / add a,#0x05 / mov dpl,a / clr a / addc a,(_p + 1) / mov dph,a / movx a,@dptr / mov _g,a / ret"),
+    "five octets on, with what is to be stored in A": (
+        "mov a,_g / mov dpl,_p / mov dph,(_p + 1) / inc dptr / inc dptr / inc dptr / inc dptr / inc dptr / movx @dptr,a / ret",
+        SAME),
+    "five octets on, with a carry in hand": (
+        "add a,_h / mov dpl,_p / mov dph,(_p + 1) / inc dptr / inc dptr / inc dptr / inc dptr / inc dptr / movx a,@dptr / "
+        "addc a,#0x00 / mov _g,a / ret", SAME),
     # ---- ways ----
     "a call before the end is a jump": ("lcall _elsewhere / ret", "ljmp _elsewhere"),
     "in an interrupt function it is a call": ("push acc / mov a,_g / mov _h,a / lcall _elsewhere / pop acc / reti", SAME),
@@ -146,6 +168,9 @@ _g:
 _h:
 _v:
 _p:
+\t.area BSEG    (BIT)
+_bit:
+_f_sloc0_1_0:
 \t.area XSEG    (XDATA)
 _x:
 _y:

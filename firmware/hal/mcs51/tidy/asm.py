@@ -17,7 +17,8 @@ RESULT = A | B | DPTR  # what a function's arguments and its result come in
 
 LABEL = re.compile(r"^\s*([A-Za-z_.]\w*|\d+\$)(::?)\s*(.*)$")
 SYMBOL = re.compile(r"^_\w+$")
-CELL = re.compile(r"^\((_\w+) \+ (0x[0-9a-f]+|\d+)\)$")
+NUMBER = r"(0x[0-9a-f]+|\d+)"
+CELL = re.compile(rf"^(?:(_\w+)|\(\(?(_\w+) \+ {NUMBER}\)?(?: \+ {NUMBER}\))?)$")
 LOCAL = re.compile(r"^(_\w+)_\d+_\d+$")  # _function_name_65536_12
 CODE_AREAS = ("CSEG", "HOME")
 BRANCHES = {"jz", "jnz", "jc", "jnc", "jb", "jnb", "jbc", "cjne", "djnz"}
@@ -33,16 +34,9 @@ FLAGS = {"ov", "_OV", "ac", "_AC", "f0", "_F0", "_F1", "rs0", "rs1", "_RS0", "_R
 
 @lru_cache(None)
 def cell(operand):
-    """(symbol, offset) of `_x` and `(_x + 3)`, None of anything else"""
-    if SYMBOL.match(operand):
-        return operand, 0
+    """(symbol, offset) of `_x`, `(_x + 3)` and `((_x + 3) + 1)`, None of anything else"""
     found = CELL.match(operand)
-    return (found[1], int(found[2], 0)) if found else None
-
-
-def spelled(where):
-    symbol, offset = where
-    return f"({symbol} + 0x{offset:04x})" if offset else symbol
+    return (found[1] or found[2], int(found[3] or "0", 0) + int(found[4] or "0", 0)) if found else None
 
 
 @lru_cache(None)

@@ -1,4 +1,6 @@
-"""An octet of a function's own memory moves into a register that is free all the while it is wanted.
+"""Locals in registers that calls leave alone.
+
+An octet of a function's own memory moves into a register that is free all the while it is wanted.
 
     mov dptr,#_f_x_65536_1 / movx @dptr,a        mov r3,a
     mov dptr,#_f_x_65536_1 / movx a,@dptr        mov a,r3
@@ -6,8 +8,14 @@
 Free is a register that is not wanted behind any instruction where the octet is (of the callers neither, Flow.wanted), and
 that no instruction there changes, a call included. Callees are done before their callers, so what they change is known.
 An interrupt function keeps its octets: it would have to save the register.
+
+A register that is saved around a call becomes, all through the function, one that neither it nor its calls use:
+
+    push ar7 / lcall _g / pop ar7                push ar3 / lcall _g / pop ar3           which then is not worth its while
 """
-from asm import BANK, BIT, instruction
+import re
+
+from asm import BANK, BIT, Line, instruction
 from own import Cells, live_with_cells
 
 REGISTERS = [f"r{n}" for n in (2, 3, 4, 5, 6, 7, 1, 0)]
@@ -62,3 +70,24 @@ def _move(function, cells, bit, home):
     for line, (reads, sets) in cells.memory.items():
         if (reads | sets) & bit:
             function.put(line, instruction("mov", *((home, "a") if sets else ("a", home))))
+
+
+def find_safer(flow, function):
+    """-> was a register that is saved around calls renamed?"""
+    if function.interrupt or function.name == "_main":
+        return False
+    saved = {line.args[0][1:] for line in function.code if line.op == "push" and re.match(r"ar[2-7]$", line.args[0])}
+    renamed = False
+    for name in sorted(saved):
+        used = flow.wanted[function]
+        for line in function.code:
+            used |= line.reads | flow.changed_by(function, line)
+        other = next((r for r in REGISTERS[:6] if not used & BIT[r]), None)
+        if not other or flow.wanted[function] & BIT[name]:
+            continue
+        for line in function.code:
+            if re.search(rf"\ba?{name}\b", line.text.split(";")[0]):
+                function.put(line, Line(re.sub(rf"\b(a?){name}\b", rf"\1{other}", line.text.split(";")[0])))
+        function.refresh()
+        renamed = True
+    return renamed

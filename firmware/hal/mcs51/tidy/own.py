@@ -15,7 +15,7 @@ NAME = re.compile(r"_\w+")
 def own_memory(program, flow, function):
     """-> {symbol} after every movx of the function has got its `where`"""
     Follower(program, flow, function, ()).walk(lambda line: [line])
-    mine = {n for n in named(function.code) if LOCAL.match(n) and program.plain.get(n) in ("XSEG", "DSEG", "OSEG")
+    mine = {n for n in named(function.code) if LOCAL.match(n) and program.plain.get(n) in ("XSEG", "DSEG", "OSEG", "BSEG")
             and program.named_in(n) == {function}}
     for line in function.code:
         for operand in line.args:
@@ -79,9 +79,9 @@ class Cells:
             bit = self._bit(line.where)
             return (bit, 0) if line.args[0] == "a" else (0, bit)
         for place, operand in enumerate(line.args):
-            where = cell(operand)
+            where = cell(operand.lstrip("/"))
             if where and where[0] in self.own:
-                if place == 0 and line.op in ("mov", "pop"):
+                if place == 0 and line.op in ("mov", "pop", "setb", "clr"):
                     sets |= self._bit(where)
                 else:
                     reads |= self._bit(where)

@@ -5,6 +5,7 @@
   DPTR points there already, or one octet before    nothing, or inc dptr
   a store of what the place holds                   nothing
   mov a,X / add a,Y with Y in A before              add a,X
+  mov R,X / anl R,#k / mov a,R                      the same in A, which is shorter
   mov R,a with one more, or less, than R has        inc R, dec R
   a copy in another register                        the one that has had it for longer: the copy may be unread then
   a branch on what is known                         a jump, or nothing
@@ -71,7 +72,11 @@ class Simplifier:
             better = self._pointer_pair(line)
             return self._move(line, first, second) if better is None else better
         if op == "mov":
-            return self._joined(line) or self._move(line, first, second)
+            return self._joined(line) or self._through_a(line, first, second) or self._move(line, first, second)
+        if op in ("anl", "orl", "xrl") and second == "a" and self._next(line)[0].same("mov", "a", first[1:]) \
+                and self._is_r(first[1:]):
+            self._drop_next(self._next(line))
+            return [instruction(op, "a", first[1:]), instruction("mov", first[1:], "a")]
         if op == "movx":
             return self._external(line, first, second)
         if op in ("clr", "setb") and first in ("a", "c"):
@@ -148,7 +153,7 @@ class Simplifier:
             return None  # what a port is set to is looked for by the checks
         if self.now.held.get(name or where) == value:
             return []
-        if self._is_r(first) and second == "a" and self.now.held.get(first):  # A may be unread then
+        if self._is_r(first) and (second == "a" or second[0] == "#") and self.now.held.get(first):  # A may be unread then
             for op, step in (("inc", 1), ("dec", -1)):
                 if plus(self.now.held[first], step) == value:
                     return [instruction(op, first)]
@@ -181,6 +186,16 @@ class Simplifier:
             return None
         self._drop_next([following])
         return [instruction(following.op, "a", line.args[1])]
+
+    def _through_a(self, line, first, second):
+        """mov R,X / anl R,#k / mov a,R: mov a,X / anl a,#k / mov R,a."""
+        middle, last = self._next(line, 2)
+        if not self._is_r(first) or middle.op not in ("anl", "orl", "xrl") or middle.args[0] != "a" + first or \
+                middle.args[1][0] != "#" or not last.same("mov", "a", first):
+            return None
+        self._drop_next([middle, last])
+        return [instruction("mov", "a", second)] * (second != "a") + [
+            instruction(middle.op, "a", middle.args[1]), instruction("mov", first, "a")]
 
     # ---- external RAM ----
 

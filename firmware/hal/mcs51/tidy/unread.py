@@ -64,7 +64,7 @@ class Unread:
         if line.op not in ("mov", "clr") or line.writes not in BIT.values() or line.writes in (C, F) or "." in line.args[0]:
             return False
         source = line.args[1] if line.op == "mov" else "#0x00"
-        if line.op == "clr" and line.args[0] != "a" or unknown(source) or "." in source or line.writes & ~A and line.args[0][0] != "r":
+        if line.op == "clr" and line.args[0] != "a" or unknown(source) or "." in source or self._name(line)[0] not in "ar":
             return False
         for m in range(n + 1, min(n + 1 + AHEAD, len(self.function.code))):
             user = self.function.code[m]
@@ -78,6 +78,11 @@ class Unread:
         return False
 
     @staticmethod
+    def _name(line):
+        """of the register that a line sets: r7 of ar7, too"""
+        return line.args[0].removeprefix("a") or "a"
+
+    @staticmethod
     def _read_by(source):
         return register(source.lstrip("@"))
 
@@ -88,10 +93,11 @@ class Unread:
         where = cell(source)
         if not where or where[0] not in self.program.plain:
             return True  # a port, or through a pointer
-        return line.args and (line.args[0].startswith("@") and line.op != "movx" or cell(line.args[0]) == where)
+        first = line.args[0] if line.args else "a"
+        return first.startswith("@") and line.op != "movx" or cell(first) in (where, None) and not register(first)
 
     def _direct(self, line, source, user, wanted, adjacent):
-        name = line.args[0]
+        name = self._name(line)
         if wanted & line.writes and not user.writes & line.writes or user.op == "pop":
             return False
         if self._port(source) and not adjacent:

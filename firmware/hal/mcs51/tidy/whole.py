@@ -1,9 +1,10 @@
 """The rules over a whole program: callees before their callers, each as long as anything changes."""
 from flow import Flow
-from homes import find_homes
+from homes import find_homes, find_safer
 from jumps import Ways
 from own import own_memory
 from simpler import Simplifier
+from strides import add_up
 from unread import Unread
 
 ROUNDS = 6
@@ -33,7 +34,7 @@ def tidy(program):
     for function in order:
         if function.may_change():
             improve(program, flow, function)
-            if find_homes(program, flow, function, own_memory(program, flow, function)):
+            if find_homes(program, flow, function, own_memory(program, flow, function)) | find_safer(flow, function):
                 flow.forget(function)
                 improve(program, flow, function)
         flow.forget(function)  # of one that stays as it is, too: what it calls may have changed
@@ -41,6 +42,7 @@ def tidy(program):
     for function in order:
         if function.may_change():
             improve(program, flow, function)
+            add_up(program, flow, function)
         flow.forget(function)
 
 
