@@ -52,10 +52,15 @@ run-modbus: build/posix/modbus-live build/posix/fieldling-modbus
 	@build/posix/modbus-live build/posix/fieldling-modbus
 
 INVERTER := $(addprefix boards/common/inverter,.c _store.c _modbus.c _bind.c)
-UNIT_TESTS += test_modbus_inverter
+UNIT_TESTS += test_modbus_inverter test_modbus_inverter_parts
 test_modbus_inverter_SRC      = $(INVERTER) sim/modbus_client.c sim/modbus_frame.c $(HAL_VIRTUAL) $(MB_STATION)
 test_modbus_inverter_DEFAULTS = $(MB_DEFAULTS)
 test_modbus_inverter_CFLAGS   = -DMB_CONFIG='"inverter_mb.h"' -Iboards/common
+# As an 8051 does it: a part of a step in a pass.
+test_modbus_inverter_parts_MAIN     = host_tests/test_modbus_inverter.c
+test_modbus_inverter_parts_SRC      = $(test_modbus_inverter_SRC)
+test_modbus_inverter_parts_DEFAULTS = $(MB_DEFAULTS)
+test_modbus_inverter_parts_CFLAGS   = $(test_modbus_inverter_CFLAGS) -DINV_PARTS_A_PASS=1u
 $(eval $(call portable_test,test_modbus_inverter,inverter,$(INVERTER) $(MB_FAKE) $(MB_STATION),\
     -DMB_CONFIG='"inverter_mb.h"',$(MB_DEFAULTS)))
 $(eval $(call fake_test,test_modbus_inverter))

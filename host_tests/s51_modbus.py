@@ -22,12 +22,13 @@ ENTRY = 2  # cycles of a real interrupt entry that s51 does not count
 
 READ_10 = "01 03 00 00 00 0A C5 CD"
 TEN = "01 03 14 13 88 00 00 17 70 00 32 00 32 13 88 01 90 03 52 00 3C 00 00 BC 02"
+RUN = ("01 05 00 00 FF 00 8C 3A", "01 05 00 00 FF 00 8C 3A")
 SCENE = [
     (READ_10, TEN),
     ("01 01 00 00 00 01 FD CA", "01 01 01 00 51 88"),
     ("01 06 00 00 04 D2 0B 57", "01 06 00 00 04 D2 0B 57"),
     ("01 10 00 00 00 01 02 03 E8 A6 EE", "01 10 00 00 00 01 01 C9"),
-    ("01 05 00 00 FF 00 8C 3A", "01 05 00 00 FF 00 8C 3A"),
+    RUN,
     ("01 0F 00 00 00 02 01 00 DE 97", "01 0F 00 00 00 02 D4 0A"),
     ("01 08 00 00 A5 37 DA 8D", "01 08 00 00 A5 37 DA 8D"),
     ("01 41 C0 10", "01 C1 01 B0 50"),
@@ -138,30 +139,42 @@ def receive(chip, request):
     return [b - a + 2 * ENTRY for a, b in zip(spent, spent[1:])]
 
 
+def passes(chip, exchange):
+    """Machine cycles of the main loop's passes while the answer is sent."""
+    ends = [t for kind, value, t in chip.log if (kind, value) == ("AT", 1) and t > exchange.written[0]]
+    return [b - a for a, b in zip(ends, ends[1:])]
+
+
 def measure(image, n, rate):
+    """With the drive ramping up, whose model then has most to do. A request waits for the pass that is being made: no
+    answer comes later than the quickest one and the longest pass after the end of t3.5."""
     octet, bit = n * 88 / 3, n * 8 / 3
-    turns, taken, gaps = [], [], []
+    turns, taken, gaps, longest = [], [], [], []
     with ModbusChip(image, n) as chip:
+        ask(chip, RUN)
+        chip.watch_idle()
         before = chip.times()
         for k in range(25):
             exchange = ask(chip, SCENE[0], passes=1 + 7 * k % 11)
             silence = max(t for kind, value, t in chip.log if (kind, value) == ("T0", 0) and t < exchange.written[0])
             turns.append(exchange.written[0] - silence + ENTRY)
+            longest += passes(chip, exchange)
             gaps.append(max(exchange.gaps(octet)) + bit + ENTRY)  # the real TI: one bit earlier
         after = chip.times()
         for _ in range(4):
             taken += receive(chip, octets(READ_10))
     left = 1 - (after[1] - before[1]) / (after[0] - before[0])
-    print(f"{rate:6d}  t3.5 to first octet {min(turns):.0f}..{max(turns):.0f}   octet received {sum(taken) / len(taken):.0f}, "
+    worst = max(max(turns), min(turns) + max(longest))
+    print(f"{rate:6d}  t3.5 to first octet {min(turns):.0f}, at most {worst:.0f} (seen {max(turns):.0f})   octet received {sum(taken) / len(taken):.0f}, "
           f"worst {max(taken):.0f}   TI to next octet {max(gaps):.0f} ({max(0, max(gaps) - bit) / bit:.2f} bit of gap)   main loop {left:.0%}")
-    return max(turns), sum(taken) / len(taken), max(taken), max(0, max(gaps) - bit)
+    return min(turns), worst, sum(taken) / len(taken), max(taken), max(0, max(gaps) - bit)
 
 
 def test_cycles_are_within_the_budget():
     most = limits()
     for image, n, rate in ((IMAGE, N_9600_12, 9600), (IMAGE_11059, N_19200_11059, 19200)):
         found = measure(image, n, rate)
-        for name, value in zip(("modbus_turn_worst", "modbus_octet_mean", "modbus_octet_worst", "modbus_gap"), found):
+        for name, value in zip(("modbus_turn_quickest", "modbus_turn_worst", "modbus_octet_mean", "modbus_octet_worst", "modbus_gap"), found):
             expect(f"{name} {value:.0f} within {most[name]}", value <= most[name], True)
 
 

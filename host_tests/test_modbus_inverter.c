@@ -246,6 +246,23 @@ static void test_counters_of_32_bits_are_two_registers_read_at_once(void)
     TEST_ASSERT_EQUAL(1, read_register(4, INV_V_RUN_SECONDS_HIGH));
 }
 
+/* 60 Hz in 10 s are 0.60 Hz in 100 ms. */
+static void test_the_trend_has_64_records_newest_first(void)
+{
+    static const uint8_t read[] = {20, 7, 6, 0, INV_FILE_TREND, 0, 0, 0, 64};
+    unsigned i;
+    write_register(INV_P_ACCEL_TIME, 100);
+    write_coil(INV_COIL_RUN, true);
+    mbc_idle_ms(7000);
+    TEST_ASSERT_EQUAL(0, request(read, sizeof read));
+    TEST_ASSERT_EQUAL(1 + 2 * 64, answer[3]);
+    TEST_ASSERT_UINT32_WITHIN(120, 4200, answer[5] << 8 | answer[6]);
+    for (i = 0; i < 63; i++) {
+        const uint8_t *const at = answer + 5 + 2 * i;
+        TEST_ASSERT_EQUAL(60, (at[0] << 8 | at[1]) - (at[2] << 8 | at[3]));
+    }
+}
+
 static void test_the_trend_is_a_file_and_cannot_be_written(void)
 {
     const uint8_t read[] = {20, 7, 6, 0, INV_FILE_TREND, 0, 0, 0, 2};
@@ -276,5 +293,6 @@ int main(void)
     RUN_TEST(test_power_lost_while_storing_leaves_the_defaults);
     RUN_TEST(test_counters_of_32_bits_are_two_registers_read_at_once);
     RUN_TEST(test_the_trend_is_a_file_and_cannot_be_written);
+    RUN_TEST(test_the_trend_has_64_records_newest_first);
     return UNITY_END();
 }

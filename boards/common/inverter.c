@@ -10,11 +10,13 @@ uint8_t XDATA inv_inputs;
 uint16_t XDATA inv_params[INV_P_COUNT];
 uint16_t XDATA inv_values[INV_V_COUNT];
 uint16_t XDATA inv_trips[1 + INV_TRIPS_KEPT];
-uint16_t XDATA inv_trend[INV_TREND_KEPT];
 uint16_t XDATA inv_note[INV_NOTE_RECORDS];
 
 #ifndef INV_STEP_MS /* 10, 20, 50 or 100 */
 #define INV_STEP_MS 10
+#endif
+#ifndef INV_PARTS_A_PASS /* of a step; so many that time which was lost is caught up with at once */
+#define INV_PARTS_A_PASS 2750u
 #endif
 #define STEP_MS      ((unsigned)INV_STEP_MS)
 #define AMBIENT      250u /* 0.1 degC */
@@ -25,30 +27,28 @@ static uint16_t XDATA last_tick;
 static uint16_t XDATA ramp_rest; /* of the division in ramp()                     */
 static uint16_t XDATA percent;   /* of RATED_CURRENT                              */
 static uint32_t XDATA heat;      /* TEMPERATURE * 256                             */
-static uint32_t XDATA work;      /* energy below 0.1 Wh, in W * STEP_MS           */
+static uint32_t XDATA work;      /* energy below 0.1 Wh, in W ms                  */
 static uint16_t XDATA run_ms, unasked_ms, trend_ms;
 static uint16_t XDATA asked_before;
 static bool XDATA backward;
+static int8_t XDATA moving; /* +1, -1, 0: how the frequency moves */
+static uint8_t XDATA next;  /* part of the step; PARTS: it is done */
 
-static bool coil(uint8_t i)
-{
-    return (inv_coils >> i & 1u) != 0;
-}
+static uint16_t XDATA trend[INV_TREND_KEPT]; /* a ring, newer ones below older ones */
+static uint8_t XDATA trend_at;               /* the newest */
 
-static void clear_coil(uint8_t i)
-{
-    inv_coils &= (uint8_t) ~(1u << i);
-}
+#define COIL(name)  ((uint8_t)(1u << INV_COIL_##name))
+#define INPUT(name) ((uint8_t)(1u << INV_IN_##name))
 
-static void set_input(uint8_t i, bool on)
+static bool reverse(void)
 {
-    inv_inputs = (uint8_t)(on ? inv_inputs | 1u << i : inv_inputs & ~(1u << i));
+    return (inv_coils & COIL(REVERSE)) != 0;
 }
 
 void inv_trip(uint8_t code)
 {
     uint8_t i;
-    clear_coil(INV_COIL_RUN);
+    inv_coils &= (uint8_t)~COIL(RUN);
     inv_values[INV_V_OUTPUT_FREQ] = 0;
     if (inv_values[INV_V_TRIP_CODE] != INV_NO_TRIP)
         return;
@@ -63,7 +63,7 @@ void inv_trip(uint8_t code)
 static uint16_t wanted(void)
 {
     uint16_t f = inv_params[INV_P_SET_POINT];
-    if (!coil(INV_COIL_RUN) || backward != coil(INV_COIL_REVERSE))
+    if (!(inv_coils & COIL(RUN)) || backward != reverse())
         return 0;
     if (f < inv_params[INV_P_MIN_FREQ])
         f = inv_params[INV_P_MIN_FREQ];
@@ -80,15 +80,15 @@ static uint16_t ramp(uint16_t time)
     return step;
 }
 
-/* -> +1, -1, 0: how the frequency moves */
-static int8_t move_frequency(void)
+/* -> moving */
+static int8_t move(void)
 {
     const uint16_t target = wanted();
     uint16_t XDATA *const f = &inv_values[INV_V_OUTPUT_FREQ];
     uint16_t step;
     if (*f == target) {
-        if (target == 0 && coil(INV_COIL_RUN))
-            backward = coil(INV_COIL_REVERSE);
+        if (target == 0 && (inv_coils & COIL(RUN)))
+            backward = reverse();
         ramp_rest = 0;
         return 0;
     }
@@ -102,31 +102,48 @@ static int8_t move_frequency(void)
     return -1;
 }
 
-/* Voltage follows frequency up to BASE_FREQ; the current is magnetising 30 % or load, and half as much again
- * while accelerating; a fast ramp down feeds the DC bus, which trips at twice RATED_VOLTAGE. */
-static void electrics(int8_t moving)
+static void move_frequency(void)
+{
+    moving = inv_values[INV_V_TRIP_CODE] ? 0 : move();
+}
+
+static uint16_t full_voltage(void)
+{
+    return (uint16_t)(10u * inv_params[INV_P_RATED_VOLTAGE]);
+}
+
+/* Follows the frequency up to BASE_FREQ. */
+static void set_voltage(void)
 {
     const uint16_t f = inv_values[INV_V_OUTPUT_FREQ];
-    const uint16_t full = (uint16_t)(10u * inv_params[INV_P_RATED_VOLTAGE]);
-    uint16_t volt = f ? full : 0;
-    uint16_t bus = (uint16_t)((uint32_t)full * 1448u >> 10); /* 1.414 */
+    uint16_t volt = f ? full_voltage() : 0;
+    if (f && f < inv_params[INV_P_BASE_FREQ])
+        volt = (uint16_t)((uint32_t)volt * f / inv_params[INV_P_BASE_FREQ]);
+    inv_values[INV_V_OUTPUT_VOLTAGE] = volt;
+}
+
+/* Magnetising 30 % or load, and half as much again while accelerating. */
+static void set_current(void)
+{
     percent = 0;
-    if (f) {
+    if (inv_values[INV_V_OUTPUT_FREQ])
         percent = inv_params[INV_P_LOAD] > 30u ? inv_params[INV_P_LOAD] : 30u;
-        if (f < inv_params[INV_P_BASE_FREQ])
-            volt = (uint16_t)((uint32_t)full * f / inv_params[INV_P_BASE_FREQ]);
-    }
     if (moving > 0)
         percent = (uint16_t)(percent + percent / 2u);
-    inv_values[INV_V_OUTPUT_VOLTAGE] = volt;
     inv_values[INV_V_OUTPUT_CURRENT] = (uint16_t)((uint32_t)percent * inv_params[INV_P_RATED_CURRENT] / 100u);
+    if (percent > TRIP_CURRENT)
+        inv_trip(INV_OVERCURRENT);
+}
+
+/* A fast ramp down feeds it; it trips at twice RATED_VOLTAGE. */
+static void set_dc_bus(void)
+{
+    const uint16_t full = full_voltage();
+    uint16_t bus = (uint16_t)((uint32_t)full * 1448u >> 10);       /* 1.414 */
     bus = (uint16_t)(bus - ((uint32_t)bus * percent * 13u >> 16)); /* 2 % down at 100 % */
     if (moving < 0)
         bus = (uint16_t)(bus + 200u * inv_params[INV_P_LOAD] / inv_params[INV_P_DECEL_TIME]); /* below 9760 + 50000 */
     inv_values[INV_V_DC_BUS] = bus;
-    set_input(INV_IN_OVERLOADED, percent > 100u);
-    if (percent > TRIP_CURRENT)
-        inv_trip(INV_OVERCURRENT);
     if (bus > 2u * full)
         inv_trip(INV_OVERVOLTAGE);
 }
@@ -146,35 +163,55 @@ static void warm(void)
 }
 
 /* Two registers, high half first. */
-static void count(uint8_t register_high)
+static void count(uint8_t register_high, uint16_t more)
 {
-    if (++inv_values[register_high + 1u] == 0)
+    const uint16_t low = (uint16_t)(inv_values[register_high + 1u] + more);
+    inv_values[register_high + 1u] = low;
+    if (low < more)
         inv_values[register_high]++;
 }
 
-/* Power = 1.73 U I, of 0.1 V and 0.01 A (1.73 / 1000 is 1814 / 2^20); 0.1 Wh are 360 000 W ms. */
-static void account(void)
+/* Power = 1.73 U I, of 0.1 V and 0.01 A (1.73 / 1000 is 1814 / 2^20). */
+static void add_work(void)
 {
     const uint32_t watts =
         ((uint32_t)inv_values[INV_V_OUTPUT_VOLTAGE] * inv_values[INV_V_OUTPUT_CURRENT] >> 10) * 1814u >> 10;
-    for (work += watts * STEP_MS; work >= 360000u; work -= 360000u) /* 20 times at most */
-        count(INV_V_ENERGY_HIGH);
+    work += watts * STEP_MS;
+}
+
+/* 0.1 Wh are 360 000 W ms. */
+static void count_energy(void)
+{
+    uint16_t done; /* some 200 at most */
+    if (work < 360000u)
+        return;
+    done = (uint16_t)(work / 360000u);
+    work -= done * (uint32_t)360000u;
+    count(INV_V_ENERGY_HIGH, done);
+}
+
+static void count_seconds(void)
+{
     if (inv_values[INV_V_OUTPUT_FREQ] && (run_ms = (uint16_t)(run_ms + STEP_MS)) >= 1000u) {
         run_ms = 0;
-        count(INV_V_RUN_SECONDS_HIGH);
+        count(INV_V_RUN_SECONDS_HIGH, 1);
     }
 }
 
 static void record_trend(void)
 {
-    uint8_t i;
     trend_ms = (uint16_t)(trend_ms + STEP_MS);
     if (trend_ms < 100u)
         return;
     trend_ms = 0;
-    for (i = INV_TREND_KEPT - 1u; i > 0; i--)
-        inv_trend[i] = inv_trend[i - 1u];
-    inv_trend[0] = inv_values[INV_V_OUTPUT_FREQ];
+    trend_at = (uint8_t)(trend_at ? trend_at - 1u : INV_TREND_KEPT - 1u);
+    trend[trend_at] = inv_values[INV_V_OUTPUT_FREQ];
+}
+
+uint16_t inv_trend(uint8_t i)
+{
+    i = (uint8_t)(trend_at + i);
+    return trend[i < INV_TREND_KEPT ? i : i - INV_TREND_KEPT];
 }
 
 static void watch_client(void)
@@ -182,42 +219,49 @@ static void watch_client(void)
     const uint16_t asked = mb_diag.counter[MB_SLAVE_MESSAGE];
     unasked_ms = (uint16_t)(asked == asked_before && unasked_ms < 65000u ? unasked_ms + STEP_MS : 0u);
     asked_before = asked;
-    if (coil(INV_COIL_RUN) && inv_params[INV_P_COMM_TIMEOUT] &&
+    if ((inv_coils & COIL(RUN)) && inv_params[INV_P_COMM_TIMEOUT] &&
         unasked_ms >= 100u * inv_params[INV_P_COMM_TIMEOUT])
         inv_trip(INV_COMM_LOST);
 }
 
 static void obey_coils(void)
 {
-    if (coil(INV_COIL_RESET) && !coil(INV_COIL_RUN))
+    if ((inv_coils & (COIL(RESET) | COIL(RUN))) == COIL(RESET))
         inv_values[INV_V_TRIP_CODE] = INV_NO_TRIP;
-    if (coil(INV_COIL_EXTERNAL_TRIP))
+    if (inv_coils & COIL(EXTERNAL_TRIP))
         inv_trip(INV_EXTERNAL);
-    if (coil(INV_COIL_COAST)) {
-        clear_coil(INV_COIL_RUN);
+    if (inv_coils & COIL(COAST)) {
+        inv_coils &= (uint8_t)~COIL(RUN);
         inv_values[INV_V_OUTPUT_FREQ] = 0;
     }
-    clear_coil(INV_COIL_RESET);
-    clear_coil(INV_COIL_EXTERNAL_TRIP);
+    inv_coils &= (uint8_t) ~(COIL(RESET) | COIL(EXTERNAL_TRIP));
 }
 
-static void step(void)
+static void set_inputs(void)
 {
-    int8_t moving;
-    watch_client();
-    moving = inv_values[INV_V_TRIP_CODE] ? 0 : move_frequency();
-    electrics(moving);
-    warm();
-    account();
-    record_trend();
-    set_input(INV_IN_RUNNING, inv_values[INV_V_OUTPUT_FREQ] != 0);
-    set_input(INV_IN_BACKWARD, backward);
-    set_input(INV_IN_AT_SET_POINT, coil(INV_COIL_RUN) && inv_values[INV_V_OUTPUT_FREQ] == wanted());
-    set_input(INV_IN_ACCELERATING, moving > 0);
-    set_input(INV_IN_DECELERATING, moving < 0);
-    set_input(INV_IN_TRIPPED, inv_values[INV_V_TRIP_CODE] != INV_NO_TRIP);
-    set_input(INV_IN_READY, inv_values[INV_V_TRIP_CODE] == INV_NO_TRIP);
+    uint8_t on = inv_values[INV_V_TRIP_CODE] != INV_NO_TRIP ? INPUT(TRIPPED) : INPUT(READY);
+    if (inv_values[INV_V_OUTPUT_FREQ])
+        on |= INPUT(RUNNING);
+    if (backward)
+        on |= INPUT(BACKWARD);
+    if ((inv_coils & COIL(RUN)) && inv_values[INV_V_OUTPUT_FREQ] == wanted())
+        on |= INPUT(AT_SET_POINT);
+    if (moving > 0)
+        on |= INPUT(ACCELERATING);
+    if (moving < 0)
+        on |= INPUT(DECELERATING);
+    if (percent > 100u)
+        on |= INPUT(OVERLOADED);
+    inv_inputs = on;
 }
+
+/* A step, in parts: the whole of it takes an 8051 8000 machine cycles, for which a request would wait. There a pass
+ * of the main loop does one part, and a client may see values of two steps side by side. */
+static void (*const CODE parts[])(void) = {
+    watch_client, move_frequency, set_voltage,   set_current,  set_dc_bus, warm,
+    add_work,     count_energy,   count_seconds, record_trend, set_inputs,
+};
+#define PARTS (sizeof parts / sizeof parts[0])
 
 void inv_init(void)
 {
@@ -235,17 +279,23 @@ void inv_init(void)
     work = 0;
     inv_restore();
     last_tick = hal_ticks();
-    step();
+    for (next = 0; next < PARTS; next++)
+        parts[next]();
 }
 
 void inv_poll(void)
 {
     const uint16_t now = hal_ticks();
-    uint8_t most = 250;
+    uint16_t most = INV_PARTS_A_PASS;
     inv_store_poll();
     obey_coils();
-    while ((uint16_t)(now - last_tick) >= STEP_MS && most--) {
-        last_tick = (uint16_t)(last_tick + STEP_MS);
-        step();
-    }
+    do {
+        if (next == PARTS) {
+            if ((uint16_t)(now - last_tick) < STEP_MS)
+                return;
+            last_tick = (uint16_t)(last_tick + STEP_MS);
+            next = 0;
+        }
+        parts[next++]();
+    } while (--most);
 }

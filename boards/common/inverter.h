@@ -17,7 +17,7 @@ extern uint16_t XDATA inv_values[INV_V_COUNT];
 void inv_init(void);
 
 /* One pass: the model goes on by the time that has passed (steps of 10 ms; at most 250 of them are caught
- * up). */
+ * up; on an 8051 a part of a step of 50 ms). */
 void inv_poll(void);
 
 /* The drive trips with this code (enum inv_trip): output off, RUN cleared. */

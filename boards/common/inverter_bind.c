@@ -9,6 +9,11 @@ uint8_t mb_check_ind(void)
     return inv_check();
 }
 
+uint8_t mb_block_ind(void)
+{
+    return inv_block();
+}
+
 uint8_t mb_exception_status_ind(void)
 {
     return inv_inputs;

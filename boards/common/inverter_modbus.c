@@ -8,7 +8,7 @@ const struct mb_block CODE inv_blocks[] = {
     {MB_HOLDING, 0, INV_P_COUNT, inv_params},
     {MB_INPUT_REGS, 0, INV_V_COUNT, inv_values},
     {MB_FIFO, INV_TRIP_FIFO, 1 + INV_TRIPS_KEPT, inv_trips},
-    {MB_FILE, INV_FILE_TREND, INV_TREND_KEPT, inv_trend},
+    {MB_FILE, INV_FILE_TREND, INV_TREND_KEPT, NULL},
     {MB_FILE, INV_FILE_NOTE, INV_NOTE_RECORDS, inv_note},
     MB_MAP_END,
 };
@@ -72,6 +72,15 @@ uint8_t inv_check(void)
     if (mb_span.table == MB_COILS)
         return check_coils();
     return mb_span.file == INV_FILE_NOTE ? MB_OK : MB_DEVICE_FAILURE; /* the trend cannot be written */
+}
+
+/* The trend is the one block without data. */
+uint8_t inv_block(void)
+{
+    uint8_t i;
+    for (i = 0; i < mb_span.qty; i++)
+        mb_span_put(i, inv_trend((uint8_t)(mb_span.addr + i)));
+    return MB_OK;
 }
 
 /* Our choice: server id 'I', run indicator, then the name. */

@@ -8,6 +8,7 @@
 extern const struct mb_block CODE inv_blocks[];
 
 uint8_t inv_check(void);                      /* mb_check_ind()     */
+uint8_t inv_block(void);                      /* mb_block_ind()     */
 uint8_t inv_server_id(uint8_t XDATA *octets); /* mb_server_id_ind() */
 
 #endif

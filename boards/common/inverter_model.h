@@ -5,8 +5,10 @@
 #include "inverter.h"
 
 extern uint16_t XDATA inv_trips[1 + INV_TRIPS_KEPT]; /* count, then the codes, newest first */
-extern uint16_t XDATA inv_trend[INV_TREND_KEPT];
 extern uint16_t XDATA inv_note[INV_NOTE_RECORDS];
+
+/* OUTPUT_FREQ, i * 100 ms ago; i is below INV_TREND_KEPT. */
+uint16_t inv_trend(uint8_t i);
 
 /* What row i of INV_PARAMS allows. */
 bool inv_param_ok(uint8_t i, uint16_t value);

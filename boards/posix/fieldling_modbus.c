@@ -27,6 +27,11 @@ uint8_t mb_check_ind(void)
     return is_image ? MB_OK : inv_check();
 }
 
+uint8_t mb_block_ind(void)
+{
+    return inv_block(); /* an image has data in all its blocks */
+}
+
 uint8_t mb_exception_status_ind(void)
 {
     return is_image ? 0 : inv_inputs;

@@ -72,20 +72,18 @@ static uint16_t append_crc(void)
     return (uint16_t)(n + CRC_LEN);
 }
 
-#define is_ascii (MB_WITH_ASCII && mb_rx.idle == MB_COLON)
-
 /* Our choice: when something was heard after the request, its client has given up and is talking again; it is
  * not talked into. What comes then has lost its start: in RTU nothing is taken before t3.5 of silence (which,
  * if nothing was heard, is over). */
 void mb_line_end(bool answered)
 {
-    const uint16_t n = is_ascii ? mb_ascii_encode() : append_crc();
+    const uint16_t n = mb_is_ascii ? mb_ascii_encode() : append_crc();
     const uint8_t irq = hal_irq_save();
     if (answered && !mb_rx.flaws) {
         mb_rx.state = MB_SENDING;
         hal_send(mb_adu, n);
     } else {
-        mb_rx.state = is_ascii ? MB_COLON : MB_INITIAL;
+        mb_rx.state = mb_is_ascii ? MB_COLON : MB_INITIAL;
         hal_silence(mb_rx.t35);
     }
     hal_irq_restore(irq);

@@ -39,6 +39,7 @@ struct mb_rx {
 };
 extern HOT struct mb_rx mb_rx;
 
+#define mb_is_ascii   (MB_WITH_ASCII && mb_rx.idle == MB_COLON)
 #define mb_idle_state (MB_WITH_ASCII ? mb_rx.idle : (uint8_t)MB_IDLE)
 
 /* End delimiter of ASCII frames; function 8/3 changes the next one, which holds from the next answer on. Our

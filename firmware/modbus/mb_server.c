@@ -59,7 +59,7 @@ void mb_poll(void)
     uint8_t exception = MB_OK;
     if (MB_HAS_DIAGNOSTICS)
         mb_diag_poll();
-    if (MB_WITH_ASCII)
+    if (mb_is_ascii)
         mb_ascii_poll();
     if (mb_rx.state != MB_READY)
         return;

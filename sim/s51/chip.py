@@ -24,7 +24,7 @@ PARITY = ("^".join(f"(uart0_received_char>>{n})" for n in range(8))).join(("(", 
 RI_BIT, P3_2_BIT, SBUF = 0x98, 0xB2, 0x99
 DRIVER = "(((P3>>2)&1)^1)"  # is it on? A port is high in reset: an inverter makes that the driver off
 # What is noted: a line with 10000 times one of these and a value, and a line with the time in clocks. INT: an interrupt
-# is entered or left. AT: now. Then, where asked for, BUSY and the clocks spent in interrupts.
+# is entered or left. AT: now; 1: a pass of the main loop ends. Then, where asked for, BUSY and the clocks in interrupts.
 KINDS = {81: "RI", 82: "TX", 83: "DE", 84: "T0", 88: "INT", 89: "AT"}
 BUSY = "expr /d 800000;expr /d sim_isr_ticks"
 ENTRY, RETI = 4, 2  # machine cycles on the real part: its call of the vector and the jump there; the return

@@ -30,6 +30,10 @@ class ModbusChip(_Modbus, Chip):
         self.watch("0x0b", "expr /d 840000;expr /d sim_ticks")  # the vector of Timer 0
         self.watch_driver()
 
+    def watch_idle(self):
+        """Note the end of each pass of the main loop."""
+        self.watch(f"0x{self.symbols['hal_idle']:x}", "expr /d 890001;expr /d sim_ticks")
+
     def ask(self, request, passes=1):
         """Send request, passes of the main loop from now; run until its answer has left. -> Exchange"""
         for _ in range(passes):

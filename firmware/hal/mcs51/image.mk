@@ -17,7 +17,7 @@ mcs51_options = $(MCS51_CC) $(MCS51_INCLUDES) -Iboards/$1 -DFIELDLING_CONFIG='"$
 # The Modbus inverter. Every octet is looked at: it must last longer than the receiver takes (s51_modbus.py). Answers are
 # sent octet by octet, main going on meanwhile; a gap below 1.5 characters is none. 110, 126: an `if` on a constant.
 MCS51_MODBUS = $(addprefix firmware/hal/mcs51/,octet.c divide.c crc16_append.c) $(filter-out boards/common/main_modbus.c boards/common/line_console.c firmware/crc16_append.c,$(CONSOLE_MODBUS))
-MCS51_MODBUS_CFLAGS = -DMB_CONFIG='"inverter_mb.h"' -DMB_WITH_LUMPS=0 -DCRC16_ENTRIES=512 -DINV_STEP_MS=50 \
+MCS51_MODBUS_CFLAGS = -DMB_CONFIG='"inverter_mb.h"' -DMB_WITH_LUMPS=0 -DCRC16_ENTRIES=512 -DINV_STEP_MS=50 -DINV_PARTS_A_PASS=1u \
                       -DMIN_OCTET_CYCLES=400u -DPOLLED_BIT_CYCLES=1u --disable-warning 110 --disable-warning 126
 
 # C to assembly (build/BOARD/NAME.c/), functions nobody calls left out (build/BOARD/NAME/), then assembled and linked (link.sh).
