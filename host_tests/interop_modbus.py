@@ -358,8 +358,8 @@ def test_console():
         status = s.ask("status")
         expect("status", (status["device"], status["mode"], status["address"], status["baud"], status["bus_message"]),
                ("inverter", "rtu", str(UNIT), "19200", "0"))
-        expect("set", s.ask("set inputs 2 1")["value"], "1")
-        expect("get", s.ask("get inputs 0x2")["value"], "1")
+        expect("set", s.ask("set coils 1 1")["value"], "1")
+        expect("get", s.ask("get coils 0x1")["value"], "1")
         for line, reason in (("get coils", "usage-get-table-address"), ("get foo 1", "no-such-table"),
                              ("get coils 99", "no-such-address"), ("get coils x", "address-is-0-to-65535"),
                              ("set coils 0 2", "value-is-0-or-1"), ("set holding-regs 0 65536", "value-is-0-to-65535"),
