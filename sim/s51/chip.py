@@ -230,11 +230,15 @@ class Chip:
             self.step(int(cycle - self.log[-1][2]) // 2)
 
     def take_log(self, text):
-        for code, value, ticks in re.findall(r"^(8[0-489])000([01])\n(-?\d+)$", text, re.M):
-            if code == "80":
-                self.busy.append((self.log[-1][2], int(ticks) / CLOCKS))
-            else:
-                self.log.append((KINDS[int(code)], int(value), self.clocks(ticks) / CLOCKS))
+        """Pair by pair: a time can look like what is noted."""
+        for code, value, told in re.findall(r"^(8[0-689])(\d{4})\n(-?\d+)$", text, re.M):
+            self.take_note(int(code), int(value), told)
+
+    def take_note(self, code, value, told):
+        if code == 80:
+            self.busy.append((self.log[-1][2], int(told) / CLOCKS))
+        elif code in KINDS:
+            self.log.append((KINDS[code], value, self.clocks(told) / CLOCKS))
 
     def clocks(self, told):
         """-> clocks since reset, from what the simulator tells."""

@@ -54,11 +54,12 @@ class Board(s51.Chip):
         self.breaks += 1
         return f"break {event}", "run", f"delete {self.breaks}"
 
-    def take_log(self, text):
-        super().take_log(text)
-        for place, value, ticks in re.findall(r"^8([45])0(\d{3})\n(-?\d+)$", text, re.M):
-            self.outputs[int(place) - 4] = int(value)
-            self.written.append((self.clocks(ticks) / s51.CLOCKS, int(place) - 4, int(value)))
+    def take_note(self, code, value, told):
+        if code not in (OUTPUT, OUTPUT + 1):
+            super().take_note(code, value, told)
+            return
+        self.outputs[code - OUTPUT] = value
+        self.written.append((self.clocks(told) / s51.CLOCKS, code - OUTPUT, value))
 
     # ---- the board ----
 
