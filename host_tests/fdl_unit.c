@@ -44,8 +44,8 @@ void unit_begin(void)
     isr.result = FDL_OK;
     isr.keep = false;
     isr.kept = 0;
-    fdl_reply_init(&reply_10, rooms_10[0], 16);
-    fdl_reply_init(&reply_nil, rooms_nil[0], 246);
+    fdl_reply_init(&reply_10, rooms_10[0], 16, 10);
+    fdl_reply_init(&reply_nil, rooms_nil[0], 246, FDL_SAP_NIL);
 }
 
 void unit_count(void)

@@ -33,7 +33,7 @@ void setUp(void)
 {
     dp_begin(8, PHY_BAUD_19K2);
     memset(&got, 0, sizeof got);
-    fdl_reply_init(&reply, rooms[0], 8);
+    fdl_reply_init(&reply, rooms[0], 8, SAP_B);
     TEST_ASSERT_EQUAL(FMA_OK, fma_sap_activate(SAP_A, FDL_ALL, FDL_SDA | FDL_SDN, 4, FDL_TO_MAIN));
     TEST_ASSERT_EQUAL(FMA_OK, fma_rsap_activate(SAP_B, FDL_ALL, 4, FDL_TO_MAIN, &reply));
     TEST_ASSERT_EQUAL(FMA_OK, fma_sap_activate(OWN, 3, FDL_SDA, 4, FDL_TO_MAIN));

@@ -19,7 +19,7 @@ static void asked_with_saps(uint8_t d, uint8_t s)
 void setUp(void)
 {
     unit_begin();
-    fdl_reply_init(&reply, rooms[0], 246);
+    fdl_reply_init(&reply, rooms[0], 246, FDL_SAP_NIL);
     fma_rsap_activate(FDL_SAP_NIL, FDL_ALL, 246, FDL_ANSWER_ONLY, &reply);
     fma_rsap_activate(59, FDL_ALL, 246, FDL_ANSWER_ONLY, &reply);
     fma_rsap_activate(60, FDL_ALL, 246, FDL_ANSWER_ONLY, &reply);

@@ -37,7 +37,7 @@ static void use_own_cfg(void)
 
 void ddlm_cfg_init(void)
 {
-    fdl_reply_init(&ddlm_cfg_reply, rooms[0], DEV_CFG_MAX);
+    fdl_reply_init(&ddlm_cfg_reply, rooms[0], DEV_CFG_MAX, SAP_GET_CFG);
     use_own_cfg();
 }
 

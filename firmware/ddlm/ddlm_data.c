@@ -37,7 +37,8 @@ static struct outputs XDATA newest;
 static struct outputs XDATA held;
 static IDATA volatile uint8_t safe;    /* the application must go to the fail-safe state */
 static IDATA volatile uint8_t sync_on;
-static HOT volatile uint8_t refused; /* a wrong length was seen: no more data exchange until the main loop has left it */
+static HOT volatile uint8_t accepted; /* octets of outputs that Data_Exchange brings */
+#define NOTHING 0xFFu                 /* a wrong length was seen: no more data exchange until the main loop has left it */
 static IDATA volatile uint8_t notes;
 
 /* ---- interrupt ------------------------------------------------------------------------------------------- */
@@ -60,26 +61,27 @@ static void wrong_length_isr(void) IN_ISR
 {
     fdl_count_isr(&ddlm_counters.wrong_length);
     notes |= NOTE_WRONG_LENGTH;
-    refused = DDLM_WRONG_LENGTH_LEAVES;
+    if (DDLM_WRONG_LENGTH_LEAVES)
+        accepted = NOTHING;
 }
 
 /* A master in Clear sends zeros, or, to a slave that offers Fail_Safe, no outputs at all. */
-static bool length_is_wrong_isr(void) IN_ISR
+static bool is_clear_isr(void) IN_ISR
 {
     if (DEV_FAIL_SAFE && fdl_req.len == 0)
-        return false;
-    return fdl_req.len != ddlm.output_len;
+        return accepted != NOTHING;
+    return false;
 }
 
 static void data_exchange_isr(void) IN_ISR
 {
-    if (refused)
+    if (accepted == NOTHING)
         return;
-    if (length_is_wrong_isr()) {
-        wrong_length_isr();
-        return;
-    }
-    if (fdl_req.len != ddlm.output_len) {
+    if (fdl_req.len != accepted) {
+        if (!is_clear_isr()) {
+            wrong_length_isr();
+            return;
+        }
         clear_isr();
     } else if (fdl_req.len) {
         if (sync_on) {
@@ -156,12 +158,15 @@ static void global_control_isr(void) IN_ISR
 
 uint8_t fdl_ask_isr(void) IN_ISR
 {
-    if (fdl_req.dsap == FDL_SAP_NIL)
-        return refused || length_is_wrong_isr() ? FDL_RS : FDL_OK;
-    if (fdl_req.dsap == SAP_SLAVE_DIAG)
-        ddlm_diag_ask_isr();
-    else if (fdl_req.dsap != SAP_GLOBAL_CONTROL)
+    if (fdl_req.dsap == FDL_SAP_NIL) {
+        if (fdl_req.len != accepted && !is_clear_isr())
+            return FDL_RS;
+    } else if (fdl_req.dsap == SAP_SLAVE_DIAG) {
+        if (fdl_box_in != fdl_box_out)
+            ddlm_diag_ask_isr();
+    } else if (fdl_req.dsap != SAP_GLOBAL_CONTROL) {
         return FDL_RS;
+    }
     return FDL_OK;
 }
 
@@ -181,8 +186,8 @@ void ddlm_data_init(void)
 {
     newest.buffer = 0; /* FDL was reset: all buffers are its own again */
     held.buffer = 0;
-    fdl_reply_init(&ddlm_input_reply, input_rooms[0], DEV_INPUT_MAX);
-    fdl_reply_init(&ddlm_rd_outp_reply, rd_outp_rooms[0], DEV_OUTPUT_MAX);
+    fdl_reply_init(&ddlm_input_reply, input_rooms[0], DEV_INPUT_MAX, FDL_SAP_NIL);
+    fdl_reply_init(&ddlm_rd_outp_reply, rd_outp_rooms[0], DEV_OUTPUT_MAX, SAP_RD_OUTP);
     ddlm_data_safe();
 }
 
@@ -194,7 +199,6 @@ void ddlm_data_safe(void)
     held.filled = false;
     safe = true;
     sync_on = false;
-    refused = false;
     notes = 0;
     ddlm_input_reply.is &= (uint8_t)~FDL_HOLD;
     hal_irq_restore(irq);
@@ -204,6 +208,7 @@ void ddlm_data_safe(void)
 void ddlm_data_start(void)
 {
     fdl_reply_empty(&ddlm_input_reply);
+    accepted = ddlm.output_len;
     if (ddlm.input_len == 0)
         ddlm_inputs(0);
 }

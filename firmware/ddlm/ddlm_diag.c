@@ -26,8 +26,8 @@ static uint8_t flags; /* DDLM_EXT_DIAG, DDLM_STAT_DIAG */
 
 void ddlm_diag_init(void)
 {
-    fdl_reply_init(&ddlm_diag_reply, rooms[0], MAX_LEN);
-    fdl_reply_init(&pending_reply, pending_rooms[0], FIXED_LEN);
+    fdl_reply_init(&ddlm_diag_reply, rooms[0], MAX_LEN, SAP_SLAVE_DIAG);
+    fdl_reply_init(&pending_reply, pending_rooms[0], FIXED_LEN, SAP_SLAVE_DIAG);
     len = FIXED_LEN;
     flags = 0;
     diag[0] = DIAG_NOT_READY;

@@ -71,7 +71,7 @@ bool ddlm_stored_lock(void);
 extern struct fdl_reply PAGED ddlm_diag_reply;
 void ddlm_diag_init(void);
 void ddlm_diag_update(void);              /* something Slave_Diag shows has changed */
-void ddlm_diag_ask_isr(void) IN_ISR;      /* a master is about to read it           */
+void ddlm_diag_ask_isr(void) IN_ISR;      /* a master is about to read it, and a box waits */
 void ddlm_diag_read_isr(void) IN_ISR;     /* it has read it                         */
 
 /* ---- ddlm_data.c: Data_Exchange and Global_Control ---- */

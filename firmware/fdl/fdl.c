@@ -25,11 +25,11 @@ static uint8_t XDATA memory[BUFFERS][FDL_BUF_LEN];
 static uint8_t XDATA *XDATA stock[BUFFERS]; /* free buffers: stock[0..in_stock-1] */
 static IDATA uint8_t in_stock;
 
-/* Single producer (interrupt: box_in), single consumer (main loop: box_out); a box belongs to the main loop from the
- * moment box_in has passed it until box_out has. One octet each, so neither side can see half an index. */
+/* Single producer (interrupt: fdl_box_in), single consumer (main loop: fdl_box_out); a box belongs to the main loop from the
+ * moment fdl_box_in has passed it until fdl_box_out has. One octet each, so neither side can see half an index. */
 static struct box XDATA boxes[FDL_BOXES + 1u];
-static volatile IDATA uint8_t box_in;
-static volatile IDATA uint8_t box_out;
+volatile IDATA uint8_t fdl_box_in;
+volatile IDATA uint8_t fdl_box_out;
 
 /* ---- buffers --------------------------------------------------------------------------------------------- */
 
@@ -68,13 +68,13 @@ static uint8_t update_status_isr(void) IN_ISR
 
 bool fdl_box_is_free_isr(void) IN_ISR
 {
-    return next_box_isr(box_in) != box_out;
+    return next_box_isr(fdl_box_in) != fdl_box_out;
 }
 
 /* Into a box for the main loop; there is one. */
 static void box_isr(void) IN_ISR
 {
-    struct box XDATA *box = &boxes[box_in];
+    struct box XDATA *box = &boxes[fdl_box_in];
 
     box->ind.service = fdl_req.service;
     box->ind.high = (fdl_functions[fdl_header.fc & FDL_FC_FUNCTION] & FDL_IS_HIGH) != 0;
@@ -85,7 +85,7 @@ static void box_isr(void) IN_ISR
     box->ind.len = fdl_req.len;
     box->ind.lsdu = fdl_req.lsdu;
     box->buffer = fdl_keep_isr(0);
-    box_in = next_box_isr(box_in);
+    fdl_box_in = next_box_isr(fdl_box_in);
 }
 
 bool fdl_waiting_isr(uint8_t dsap) IN_ISR
@@ -93,7 +93,7 @@ bool fdl_waiting_isr(uint8_t dsap) IN_ISR
     uint8_t i;
     const struct fdl_ind XDATA *ind;
 
-    for (i = box_out; i != box_in; i = next_box_isr(i)) {
+    for (i = fdl_box_out; i != fdl_box_in; i = next_box_isr(i)) {
         ind = &boxes[i].ind;
         if (ind->dsap >= dsap && ind->sa == fdl_req.sa)
             return true;
@@ -103,14 +103,14 @@ bool fdl_waiting_isr(uint8_t dsap) IN_ISR
 
 void fdl_poll(void)
 {
-    const uint8_t in = box_in; /* what comes meanwhile waits for the next turn */
+    const uint8_t in = fdl_box_in; /* what comes meanwhile waits for the next turn */
     struct box XDATA *box;
 
-    while (box_out != in) {
-        box = &boxes[box_out];
+    while (fdl_box_out != in) {
+        box = &boxes[fdl_box_out];
         fdl_data_ind(&box->ind);
         fdl_give_back(box->buffer);
-        box_out = box_out == FDL_BOXES ? 0u : (uint8_t)(box_out + 1u);
+        fdl_box_out = fdl_box_out == FDL_BOXES ? 0u : (uint8_t)(fdl_box_out + 1u);
     }
 }
 
@@ -195,7 +195,7 @@ static void take_reply_isr(void) IN_ISR
     if (fdl_plan.is & FDL_SINGLE)
         reply->is &= (uint8_t)~FDL_VALID;
     if (fdl_plan.late)
-        fdl_tx_build_isr(reply->sent);
+        fdl_tx_frame_isr(reply->sent);
 }
 
 /* The answer given before; where its room has been given up since (Freeze takes newer inputs), the one planned. */
@@ -288,8 +288,8 @@ void fdl_reset(uint8_t ts)
     for (i = 1; i < BUFFERS; i++)
         stock[in_stock++] = memory[i];
     fdl_rx_buf = memory[0];
-    box_in = 0;
-    box_out = 0;
+    fdl_box_in = 0;
+    fdl_box_out = 0;
     heard = 0;
     fdl_watched = FDL_ALL;
     fdl_others = FDL_TAKE;

@@ -134,10 +134,11 @@ void fdl_data_ind(const struct fdl_ind XDATA *ind);
  *
  *   room   | length sum | SD LE LEr SD DA SA FC DAE SAE | L_sdu ......... | FCS ED |
  *
- * A whole frame stands in a room beforehand, up to ED: the answer to the header that was answered last. Only where
- * another one asks, or asks in another way, is it built around the data anew.
- * Invariants: sent, ready and spare are the three rooms, in any order; a room with frame_len != 0 holds the answer to
- * da, sa, dsap, ssap with the priority of `is`. */
+ * A whole frame stands in a room beforehand, up to ED: the SD2 that answers a request to dsap from ssap. Whom it goes to
+ * and with which priority, DA SA FC, is looked at when it is used. Only where other SAPs are asked, or by SD3, is a frame
+ * built around the data anew.
+ * Invariants: sent, ready and spare are the three rooms, in any order; a room with frame_len != 0 holds a frame with dsap,
+ * ssap and a good FCS. */
 #define FDL_ROOM_HEAD 11u
 #define FDL_ROOM_TAIL 2u
 #define FDL_ROOM(lsdu_max) ((lsdu_max) + FDL_ROOM_HEAD + FDL_ROOM_TAIL)
@@ -153,8 +154,7 @@ struct fdl_room {
     uint8_t frame_len; /* 0: the frame is still to be built */
 };
 struct fdl_reply {
-    uint8_t sa, da; /* of the request that is answered */
-    uint8_t dsap;   /* with FDL_AS_SD3                 */
+    uint8_t dsap; /* of the request that is answered; with FDL_AS_SD3 */
     uint8_t ssap;
     uint8_t is; /* FDL_FRESH ... */
     struct fdl_room PAGED *sent;
@@ -165,8 +165,9 @@ struct fdl_reply {
 };
 
 /* Bind a reply to three rooms of FDL_ROOM(max) octets laid one after the other at rooms; empty. max 0..246; asked
- * with both SAPs, no more than 244 can be sent: UE. main. */
-void fdl_reply_init(struct fdl_reply PAGED *reply, uint8_t XDATA *rooms, uint8_t max);
+ * with both SAPs, no more than 244 can be sent: UE. sap, 0..62 or FDL_SAP_NIL: where it will be asked as a rule; its
+ * frames are made for that and the SSAP of DP masters, whoever asks otherwise waits longer. main. */
+void fdl_reply_init(struct fdl_reply PAGED *reply, uint8_t XDATA *rooms, uint8_t max, uint8_t sap);
 
 /* Who deals with a request once FDL has checked station, service and length (the standard's Indication_mode,
  * widened). */
@@ -244,8 +245,11 @@ uint8_t fdl_ask_isr(void) IN_ISR;
  * once for each request, when its answer is out or will not go out; not if its SAP has been deactivated since. isr. */
 void fdl_ind_isr(void) IN_ISR;
 
-/* Is there an indication that the main loop has not dealt with yet, for SAP dsap or one of a higher number, from the
- * station of fdl_req? isr. */
+/* Indications that the main loop has not dealt with yet wait in boxes: there are none where these two are equal. isr. */
+extern volatile IDATA uint8_t fdl_box_in;
+extern volatile IDATA uint8_t fdl_box_out;
+
+/* Is there one for SAP dsap or one of a higher number, from the station of fdl_req? isr. */
 bool fdl_waiting_isr(uint8_t dsap) IN_ISR;
 
 /* Keep the L_sdu of fdl_req beyond this interrupt: FDL takes `exchange`, a buffer got from this function before, for

@@ -27,19 +27,19 @@ const CODE uint8_t fdl_functions[FDL_FC_FUNCTION + 1u] = {
 
 /* ---- the answer ------------------------------------------------------------------------------------------ */
 
-/* Has the reply been answering somebody else, or another SAP? Then its frames are nobody's. */
+/* Has the reply been answering other SAPs? Then there are no frames. */
 static void readdress_isr(void) IN_ISR
 {
     struct fdl_reply PAGED *reply = fdl_req.reply;
     const uint8_t dsap = fdl_req.dsap | fdl_req.sd3;
 
-    if (reply->sa == fdl_header.sa && reply->da == fdl_header.da && reply->dsap == dsap && reply->ssap == fdl_req.ssap)
+    if (reply->dsap == dsap && reply->ssap == fdl_req.ssap)
         return;
-    reply->sa = fdl_header.sa;
-    reply->da = fdl_header.da;
     reply->dsap = dsap;
     reply->ssap = fdl_req.ssap;
-    fdl_void_frames_isr(reply);
+    reply->rooms[0].frame_len = 0;
+    reply->rooms[1].frame_len = 0;
+    reply->rooms[2].frame_len = 0;
 }
 
 static void refuse_isr(uint8_t function) IN_ISR
@@ -57,30 +57,41 @@ static void empty_isr(void) IN_ISR
         fdl_tx_short_isr();
 }
 
-/* There is no frame in the room that is to be sent. The room that holds the answer kept for a retry is not written to
- * before the request is known to be good. */
-static void no_frame_isr(struct fdl_room PAGED *room) IN_ISR
+/* The room that holds the answer kept for a retry is not written to before the request is known to be good. */
+static void write_isr(struct fdl_room PAGED *room) IN_ISR
 {
     struct fdl_reply PAGED *reply = fdl_req.reply;
+
+    if (room == reply->sent && fdl_last.reply == reply)
+        fdl_plan.late = true;
+    else
+        fdl_tx_frame_isr(room);
+}
+
+static void no_frame_isr(struct fdl_room PAGED *room) IN_ISR
+{
     const uint8_t len = room->octets[0];
 
     if (len == 0)
         empty_isr();
     else if ((uint8_t)(fdl_header.len - fdl_req.len + len) > FDL_LE_MAX) /* at most 251 */
         refuse_isr(FDL_UE); /* our choice: asked with SAPs, they leave no room for so many data */
-    else if (room == reply->sent && fdl_last.reply == reply)
-        fdl_plan.late = true;
     else
-        fdl_tx_build_isr(room);
+        write_isr(room);
 }
 
 static void room_isr(struct fdl_room PAGED *room) IN_ISR
 {
+    const uint8_t fc = FDL_DL | (fdl_plan.is & FDL_HIGH);
+
     phy_tx.len = room->frame_len;
-    if (phy_tx.len)
-        phy_tx.at = room->octets + (uint8_t)(FDL_ROOM(room->octets[0]) - phy_tx.len);
-    else
+    if (!phy_tx.len) {
         no_frame_isr(room);
+        return;
+    }
+    phy_tx.at = room->octets + (uint8_t)(FDL_ROOM_HEAD - 4u + fdl_req.len - fdl_header.len);
+    if (phy_tx.at[4] != fdl_header.sa || phy_tx.at[5] != fdl_header.da || phy_tx.at[6] != fc)
+        write_isr(room);
 }
 
 /* An SRD, Ident or LSAP status is answered from fdl_req.reply. */

@@ -55,7 +55,9 @@ void fdl_tx_fixed_isr(uint8_t function) IN_ISR;    /* SD1                       
 void fdl_tx_status_isr(void) IN_ISR;               /* SD1: OK                                                   */
 void fdl_tx_keep_isr(void) IN_ISR;                 /* the SD1 built last is kept: the next one goes elsewhere   */
 
-void fdl_tx_build_isr(struct fdl_room PAGED *room) IN_ISR; /* in a room, around an L_sdu that fits                     */
+/* Put the frame that answers fdl_req into a room, around an L_sdu that fits, and the room into phy_tx. Where there is
+ * a frame already, only DA SA FC are written: a quarter of the time. */
+void fdl_tx_frame_isr(struct fdl_room PAGED *room) IN_ISR;
 
 /* ---- fdl_sap: service access points ---- */
 
@@ -142,8 +144,5 @@ void fdl_replan_isr(struct fdl_reply PAGED *reply) IN_ISR;
 
 /* Take `ready` for `sent`. */
 void fdl_turn_isr(struct fdl_reply PAGED *reply) IN_ISR;
-
-/* No frame of the reply's rooms is right any more. */
-void fdl_void_frames_isr(struct fdl_reply PAGED *reply) IN_ISR;
 
 #endif

@@ -12,6 +12,8 @@ uint8_t XDATA fdl_row_of[FDL_SAP_NUMBERS];
 static uint8_t XDATA owner_of[FDL_SAPS + 1u]; /* row -> SAP number */
 #define NOBODY 0xFFu
 
+#define SSAP_OF_MASTERS 62u /* all services of DP are asked from it: spec A6 */
+
 #define IDENT_MAX 64u /* four length octets and four strings */
 #define LSAP_LEN  6u  /* Access, its extension, and an octet each for SDA SDN SRD CSRD */
 
@@ -31,8 +33,8 @@ void fdl_sap_reset(void)
     for (i = 1; i <= FDL_SAPS; i++)
         owner_of[i] = NOBODY;
     fdl_rows[NO_ROW].services = 0;
-    fdl_reply_init(&ident, ident_rooms[0], IDENT_MAX);
-    fdl_reply_init(&lsap, lsap_rooms[0], LSAP_LEN);
+    fdl_reply_init(&ident, ident_rooms[0], IDENT_MAX, FDL_SAP_NIL);
+    fdl_reply_init(&lsap, lsap_rooms[0], LSAP_LEN, FDL_SAP_NIL);
 }
 
 struct fdl_sap PAGED *fdl_sap_row_isr(uint8_t sap) IN_ISR
@@ -102,7 +104,7 @@ bool fdl_sap_clear(uint8_t sap)
 
 /* ---- update buffers -------------------------------------------------------------------------------------- */
 
-void fdl_reply_init(struct fdl_reply PAGED *reply, uint8_t XDATA *rooms, uint8_t max)
+void fdl_reply_init(struct fdl_reply PAGED *reply, uint8_t XDATA *rooms, uint8_t max, uint8_t sap)
 {
     uint8_t i;
 
@@ -116,50 +118,73 @@ void fdl_reply_init(struct fdl_reply PAGED *reply, uint8_t XDATA *rooms, uint8_t
     reply->spare = &reply->rooms[2];
     reply->max = max;
     reply->is = 0;
+    reply->dsap = sap;
+    reply->ssap = sap == FDL_SAP_NIL ? FDL_SAP_NIL : SSAP_OF_MASTERS;
 }
 
 static uint8_t XDATA *HOT to;
 static const uint8_t XDATA *HOT from;
 static HOT uint8_t sum;
 static struct fdl_room PAGED *HOT room;
-static struct fdl_room PAGED *HOT model;
+
+static void put(uint8_t octet)
+{
+    *to++ = octet;
+    sum = (uint8_t)(sum + octet);
+}
 
 static void copy(uint8_t n)
 {
-    sum = 0;
-    for (; n; n--) {
-        *to = *from++;
-        sum = (uint8_t)(sum + *to++);
-    }
+    for (; n; n--)
+        put(*from++);
 }
 
-/* The frame around new data is that around the data sent last, if they are as long: its octets before the data, and
- * FCS by the difference. The room sent last keeps its octets even if it becomes `ready` meanwhile; where another
- * requester comes, frame_len of all rooms is 0 afterwards. */
+/* With the frame around it, for who asked last. Where other SAPs are asked meanwhile, frame_len of all rooms is 0
+ * afterwards; where somebody else asks, DA SA FC may be a mixture. */
+#define BEING_BUILT 1u
+
 void fdl_reply_write(struct fdl_reply PAGED *reply, const uint8_t XDATA *lsdu, uint8_t len, uint8_t how)
 {
-    uint8_t fcs;
+    uint8_t le = (uint8_t)(len + 3u);
+    uint8_t dsap;
+    uint8_t ssap;
+    uint8_t head;
     uint8_t irq;
 
     room = reply->spare;
-    model = reply->sent;
-    room->frame_len = model->frame_len;
-    to = room->octets;
-    from = model->octets;
-    copy(FDL_ROOM_HEAD);
-    from += len;
-    fcs = *from;
+    room->frame_len = BEING_BUILT;
+    dsap = reply->dsap;
+    ssap = reply->ssap;
+    if (ssap != FDL_SAP_NIL)
+        le++;
+    if (dsap != FDL_SAP_NIL)
+        le++;
+    head = (uint8_t)(FDL_ROOM_HEAD + len - le);
+    from = reply->sent->octets + head;
+    to = room->octets + head - 4u;
+    put(FDL_SD2);
+    put(le);
+    put(le);
+    put(FDL_SD2);
+    sum = 0;
+    copy(3); /* DA SA FC */
+    if (ssap != FDL_SAP_NIL)
+        put(ssap);
+    if (dsap != FDL_SAP_NIL)
+        put(dsap);
+    head = sum;
     from = lsdu;
     copy(len);
-    from = model->octets;
-    to[0] = (uint8_t)(fcs - from[1] + sum);
+    to[0] = sum;
     to[1] = FDL_ED;
     to = room->octets;
     to[0] = len;
-    to[1] = sum;
-    if (len != from[0])
+    to[1] = (uint8_t)(sum - head);
+    if (len == 0 || le > FDL_LE_MAX || (dsap & FDL_AS_SD3))
         room->frame_len = 0;
     irq = hal_irq_save();
+    if (room->frame_len)
+        room->frame_len = (uint8_t)(le + 6u);
     reply->spare = reply->ready;
     reply->ready = room;
     reply->is = (uint8_t)((reply->is & ~FDL_SINGLE) | FDL_FRESH | FDL_VALID | (how & FDL_SINGLE));
@@ -246,7 +271,7 @@ struct fdl_reply PAGED *fdl_lsap_reply_isr(void) IN_ISR
         return 0;
     lsap_rooms[0][0] = 0;
     lsap_rooms[0][1] = 0;
-    fdl_void_frames_isr(&lsap);
+    lsap.rooms[0].frame_len = 0;
     lsap_put_isr(row->access);
     lsap_put_isr(0);
     lsap_put_role_isr(FDL_SDA);

@@ -81,13 +81,6 @@ void fdl_turn_isr(struct fdl_reply PAGED *reply) IN_ISR
     reply->is &= (uint8_t)~FDL_FRESH;
 }
 
-void fdl_void_frames_isr(struct fdl_reply PAGED *reply) IN_ISR
-{
-    reply->rooms[0].frame_len = 0;
-    reply->rooms[1].frame_len = 0;
-    reply->rooms[2].frame_len = 0;
-}
-
 /* What Freeze takes may give up the room of the answer kept for a retry. */
 void fdl_reply_release_isr(struct fdl_reply PAGED *reply) IN_ISR
 {
@@ -105,22 +98,30 @@ void fdl_reply_priority_isr(struct fdl_reply PAGED *reply, uint8_t priority) IN_
     if (is == reply->is)
         return;
     reply->is = is;
-    fdl_void_frames_isr(reply);
     fdl_replan_isr(reply);
 }
 
-/* SD2, or SD3 where it was asked so and fits. The requester's octets come back exchanged: its SA is our DA, with its
- * extension bit, its SSAP our DAE. */
-void fdl_tx_build_isr(struct fdl_room PAGED *room) IN_ISR
+/* The requester's octets come back exchanged: its SA is our DA, with its extension bit, its SSAP our DAE. */
+static void address_isr(void) IN_ISR
 {
-    at = room->octets;
+    le = FDL_DL | (fdl_plan.is & FDL_HIGH);
+    *at++ = fdl_header.sa;
+    *at++ = fdl_header.da;
+    *at++ = le;
+    sum = (uint8_t)(sum + fdl_header.sa + fdl_header.da + le);
+}
+
+/* SD2, or SD3 where it was asked so and fits; that is not kept. */
+static void build_isr(struct fdl_room PAGED *room) IN_ISR
+{
     le = (uint8_t)(fdl_header.len - fdl_req.len + at[0]);
     around = 6;
     if (fdl_req.sd3 && le == 3u + FDL_SD3_DU)
         around = 3;
     phy_tx.len = (uint8_t)(le + around);
-    room->frame_len = phy_tx.len;
-    sum = (uint8_t)(at[1] + fdl_header.sa + fdl_header.da);
+    if (!fdl_req.sd3)
+        room->frame_len = phy_tx.len;
+    sum = at[1];
     at += (uint8_t)(FDL_ROOM(at[0]) - phy_tx.len);
     phy_tx.at = at;
     if (around == 3) {
@@ -131,11 +132,7 @@ void fdl_tx_build_isr(struct fdl_room PAGED *room) IN_ISR
         *at++ = le;
         *at++ = FDL_SD2;
     }
-    *at++ = fdl_header.sa;
-    *at++ = fdl_header.da;
-    le = FDL_DL | (fdl_plan.is & FDL_HIGH);
-    *at++ = le;
-    sum = (uint8_t)(sum + le);
+    address_isr();
     if (fdl_header.sa & FDL_ADDRESS_EXT) {
         *at++ = fdl_req.ssap;
         sum = (uint8_t)(sum + fdl_req.ssap);
@@ -147,4 +144,19 @@ void fdl_tx_build_isr(struct fdl_room PAGED *room) IN_ISR
     at += *(at - FDL_ROOM_HEAD);
     *at++ = sum;
     *at = FDL_ED;
+}
+
+void fdl_tx_frame_isr(struct fdl_room PAGED *room) IN_ISR
+{
+    at = room->octets;
+    phy_tx.len = room->frame_len;
+    if (!phy_tx.len) {
+        build_isr(room);
+        return;
+    }
+    at += (uint8_t)(FDL_ROOM_HEAD + fdl_req.len - fdl_header.len);
+    sum = (uint8_t)(0u - at[0] - at[1] - at[2]);
+    address_isr();
+    at += (uint8_t)(phy_tx.len - 9u);
+    *at = (uint8_t)(*at + sum);
 }
