@@ -39,4 +39,4 @@ check-sources:
 
 # Each check rejects its bad sample.
 export FIELDLING_SDCC := $(SDCC) $(BLANK)
-QUICK_TESTS += host_tests/checks_reject.py host_tests/tidy_rules.py host_tests/near_rules.py
+QUICK_TESTS += host_tests/checks_reject.py host_tests/tidy_rules.py host_tests/tidy_random.py host_tests/near_rules.py

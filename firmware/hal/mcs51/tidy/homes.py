@@ -79,11 +79,9 @@ def find_safer(flow, function):
     saved = {line.args[0][1:] for line in function.code if line.op == "push" and re.match(r"ar[2-7]$", line.args[0])}
     renamed = False
     for name in sorted(saved):
-        used = flow.wanted[function]
-        for line in function.code:
-            used |= line.reads | flow.changed_by(function, line)
-        other = next((r for r in REGISTERS[:6] if not used & BIT[r]), None)
-        if not other or flow.wanted[function] & BIT[name]:
+        used, fixed = _used_and_fixed(flow, function)
+        other = next((r for r in REGISTERS[:6] if not (used | fixed) & BIT[r]), None)
+        if not other or fixed & BIT[name]:
             continue
         for line in function.code:
             if re.search(rf"\ba?{name}\b", line.text.split(";")[0]):
@@ -91,3 +89,14 @@ def find_safer(flow, function):
         function.refresh()
         renamed = True
     return renamed
+
+
+def _used_and_fixed(flow, function):
+    """Registers that the function or one it calls uses; those that callers or callees mean by their number."""
+    live = flow.live(function, flow.wanted[function])
+    used, fixed = 0, flow.wanted[function] | live[0]
+    for n, line in enumerate(function.code):
+        used |= line.reads | flow.changed_by(function, line)
+        if line.op and flow.leaves(function, line):
+            fixed |= flow.summary_of_call(function, line)[0] | flow.changed_by(function, line) & live[n + 1]
+    return used, fixed
