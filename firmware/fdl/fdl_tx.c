@@ -21,7 +21,6 @@ static uint8_t XDATA short_ack[1];
 static uint8_t XDATA *HOT at;
 static HOT uint8_t sum;
 static HOT uint8_t le;
-static HOT uint8_t around; /* the octets that it counts */
 
 static void put_isr(uint8_t octet) IN_ISR
 {
@@ -101,38 +100,34 @@ void fdl_reply_priority_isr(struct fdl_reply PAGED *reply, uint8_t priority) IN_
     fdl_replan_isr(reply);
 }
 
-/* The requester's octets come back exchanged: its SA is our DA, with its extension bit, its SSAP our DAE. */
-static void address_isr(void) IN_ISR
-{
-    le = FDL_DL | (fdl_plan.is & FDL_HIGH);
-    *at++ = fdl_header.sa;
-    *at++ = fdl_header.da;
-    *at++ = le;
-    sum = (uint8_t)(sum + fdl_header.sa + fdl_header.da + le);
-}
-
-/* SD2, or SD3 where it was asked so and fits; that is not kept. */
+/* The requester's octets come back exchanged: its SA is our DA, with its extension bit, its SSAP our DAE. SD2, or SD3
+ * where it was asked so and fits; that is not kept. */
 static void build_isr(struct fdl_room PAGED *room) IN_ISR
 {
+    const uint8_t fc = FDL_DL | (fdl_plan.is & FDL_HIGH);
+    uint8_t XDATA *at = room->octets;
+
     le = (uint8_t)(fdl_header.len - fdl_req.len + at[0]);
-    around = 6;
-    if (fdl_req.sd3 && le == 3u + FDL_SD3_DU)
-        around = 3;
-    phy_tx.len = (uint8_t)(le + around);
+    phy_tx.len = (uint8_t)(le + 6u);
     if (!fdl_req.sd3)
         room->frame_len = phy_tx.len;
-    sum = at[1];
+    sum = (uint8_t)(at[1] + fdl_header.sa + fdl_header.da + fc);
     at += (uint8_t)(FDL_ROOM(at[0]) - phy_tx.len);
     phy_tx.at = at;
-    if (around == 3) {
-        *at++ = FDL_SD3;
-    } else {
-        *at++ = FDL_SD2;
-        *at++ = le;
-        *at++ = le;
-        *at++ = FDL_SD2;
+    at[0] = FDL_SD2;
+    at[1] = le;
+    at[2] = le;
+    at[3] = FDL_SD2;
+    if (fdl_req.sd3 && le == 3u + FDL_SD3_DU) {
+        at[3] = FDL_SD3;
+        phy_tx.at += 3;
+        phy_tx.len = 3u + FDL_SD3_DU + 3u;
     }
-    address_isr();
+    at += 4;
+    at[0] = fdl_header.sa;
+    at[1] = fdl_header.da;
+    at[2] = fc;
+    at += 3;
     if (fdl_header.sa & FDL_ADDRESS_EXT) {
         *at++ = fdl_req.ssap;
         sum = (uint8_t)(sum + fdl_req.ssap);
@@ -141,22 +136,28 @@ static void build_isr(struct fdl_room PAGED *room) IN_ISR
         *at++ = fdl_req.dsap;
         sum = (uint8_t)(sum + fdl_req.dsap);
     }
-    at += *(at - FDL_ROOM_HEAD);
-    *at++ = sum;
-    *at = FDL_ED;
+    at += room->octets[0];
+    at[0] = sum;
+    at[1] = FDL_ED;
 }
 
 void fdl_tx_frame_isr(struct fdl_room PAGED *room) IN_ISR
 {
-    at = room->octets;
+    const uint8_t fc = FDL_DL | (fdl_plan.is & FDL_HIGH);
+    uint8_t XDATA *to;
+
     phy_tx.len = room->frame_len;
     if (!phy_tx.len) {
         build_isr(room);
         return;
     }
-    at += (uint8_t)(FDL_ROOM_HEAD + fdl_req.len - fdl_header.len);
-    sum = (uint8_t)(0u - at[0] - at[1] - at[2]);
-    address_isr();
-    at += (uint8_t)(phy_tx.len - 9u);
-    *at = (uint8_t)(*at + sum);
+    to = room->octets + (uint8_t)(FDL_ROOM_HEAD + fdl_req.len - fdl_header.len);
+    sum = (uint8_t)(fdl_header.sa - to[0]); /* what FCS grows by */
+    to[0] = fdl_header.sa;
+    sum = (uint8_t)(sum + fdl_header.da - to[1]);
+    to[1] = fdl_header.da;
+    sum = (uint8_t)(sum + fc - to[2]);
+    to[2] = fc;
+    to += (uint8_t)(phy_tx.len - 6u);
+    *to = (uint8_t)(*to + sum);
 }
