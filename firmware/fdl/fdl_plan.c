@@ -83,14 +83,16 @@ static void no_frame_isr(struct fdl_room PAGED *room) IN_ISR
 static void room_isr(struct fdl_room PAGED *room) IN_ISR
 {
     const uint8_t fc = FDL_DL | (fdl_plan.is & FDL_HIGH);
+    const uint8_t XDATA *head; /* DA SA FC */
 
     phy_tx.len = room->frame_len;
     if (!phy_tx.len) {
         no_frame_isr(room);
         return;
     }
-    phy_tx.at = room->octets + (uint8_t)(FDL_ROOM_HEAD - 4u + fdl_req.len - fdl_header.len);
-    if (phy_tx.at[4] != fdl_header.sa || phy_tx.at[5] != fdl_header.da || phy_tx.at[6] != fc)
+    head = room->octets + (uint8_t)(FDL_ROOM_HEAD + fdl_req.len - fdl_header.len);
+    phy_tx.at = head - 4;
+    if (head[0] != fdl_header.sa || head[1] != fdl_header.da || head[2] != fc)
         write_isr(room);
 }
 

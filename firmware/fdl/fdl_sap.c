@@ -245,39 +245,29 @@ struct fdl_reply PAGED *fdl_ident_reply_isr(void) IN_ISR
 
 static IDATA uint8_t offered; /* services of the SAP asked about */
 
+static uint8_t role_isr(uint8_t service) IN_ISR
+{
+    return offered & service ? ROLE_RESPONDER : ROLE_NONE;
+}
+
 /* Built where the answer will stand: lsap is never updated, so it is always its first room that is sent. */
-static void lsap_put_isr(uint8_t octet) IN_ISR
-{
-    uint8_t XDATA *room = lsap_rooms[0];
-
-    room[FDL_ROOM_HEAD + room[0]] = octet;
-    room[0]++;
-    room[1] = (uint8_t)(room[1] + octet);
-}
-
-static void lsap_put_role_isr(uint8_t service) IN_ISR
-{
-    uint8_t type = service == FDL_SDA ? TYPE_SDA : service == FDL_SDN ? TYPE_SDN : TYPE_SRD;
-
-    lsap_put_isr(type | (offered & service ? ROLE_RESPONDER : ROLE_NONE));
-}
-
 struct fdl_reply PAGED *fdl_lsap_reply_isr(void) IN_ISR
 {
-    struct fdl_sap PAGED *row = fdl_sap_row_isr(fdl_req.dsap);
+    const struct fdl_sap PAGED *row = fdl_sap_row_isr(fdl_req.dsap);
+    uint8_t XDATA *lsdu = &lsap_rooms[0][FDL_ROOM_HEAD];
 
     offered = row->services;
     if (!offered)
         return 0;
-    lsap_rooms[0][0] = 0;
-    lsap_rooms[0][1] = 0;
+    lsdu[0] = row->access;
+    lsdu[1] = 0;
+    lsdu[2] = TYPE_SDA | role_isr(FDL_SDA);
+    lsdu[3] = TYPE_SDN | role_isr(FDL_SDN);
+    lsdu[4] = TYPE_SRD | role_isr(FDL_SRD);
+    lsdu[5] = TYPE_CSRD | role_isr(FDL_SRD);
+    lsap_rooms[0][0] = LSAP_LEN;
+    lsap_rooms[0][1] = (uint8_t)(lsdu[0] + lsdu[2] + lsdu[3] + lsdu[4] + lsdu[5]);
     lsap.rooms[0].frame_len = 0;
-    lsap_put_isr(row->access);
-    lsap_put_isr(0);
-    lsap_put_role_isr(FDL_SDA);
-    lsap_put_role_isr(FDL_SDN);
-    lsap_put_role_isr(FDL_SRD);
-    lsap_put_isr(TYPE_CSRD | (offered & FDL_SRD ? ROLE_RESPONDER : ROLE_NONE));
     lsap.is = FDL_VALID;
     return &lsap;
 }
