@@ -139,22 +139,26 @@ static void copy(uint8_t n)
         put(*from++);
 }
 
-/* With the frame around it, for who asked last. Where other SAPs are asked meanwhile, frame_len of all rooms is 0
- * afterwards; where somebody else asks, DA SA FC may be a mixture. */
-#define BEING_BUILT 1u
-
-void fdl_reply_write(struct fdl_reply PAGED *reply, const uint8_t XDATA *lsdu, uint8_t len, uint8_t how)
+/* DA SA FC, for who asked last: for this reply; or where nobody has, for any. */
+static void put_header(struct fdl_reply PAGED *reply, uint8_t dsap, uint8_t ssap)
 {
-    uint8_t le = (uint8_t)(len + 3u);
-    uint8_t dsap;
-    uint8_t ssap;
-    uint8_t head;
-    uint8_t irq;
+    if (reply->sent->frame_len) {
+        copy(3);
+        return;
+    }
+    put(ssap == FDL_SAP_NIL ? fdl_req.sa : fdl_req.sa | FDL_ADDRESS_EXT);
+    put(dsap == FDL_SAP_NIL ? fdl_ts : fdl_ts | FDL_ADDRESS_EXT);
+    put(FDL_DL);
+}
 
-    room = reply->spare;
-    room->frame_len = BEING_BUILT;
-    dsap = reply->dsap;
-    ssap = reply->ssap;
+/* The L_sdu in the spare room, with the frame around it -> frame_len, 0: none. */
+static uint8_t write_spare(struct fdl_reply PAGED *reply, const uint8_t XDATA *lsdu, uint8_t len)
+{
+    const uint8_t dsap = reply->dsap;
+    const uint8_t ssap = reply->ssap;
+    uint8_t le = (uint8_t)(len + 3u);
+    uint8_t head;
+
     if (ssap != FDL_SAP_NIL)
         le++;
     if (dsap != FDL_SAP_NIL)
@@ -167,7 +171,7 @@ void fdl_reply_write(struct fdl_reply PAGED *reply, const uint8_t XDATA *lsdu, u
     put(le);
     put(FDL_SD2);
     sum = 0;
-    copy(3); /* DA SA FC */
+    put_header(reply, dsap, ssap);
     if (ssap != FDL_SAP_NIL)
         put(ssap);
     if (dsap != FDL_SAP_NIL)
@@ -180,11 +184,24 @@ void fdl_reply_write(struct fdl_reply PAGED *reply, const uint8_t XDATA *lsdu, u
     to = room->octets;
     to[0] = len;
     to[1] = (uint8_t)(sum - head);
-    if (len == 0 || le > FDL_LE_MAX || (dsap & FDL_AS_SD3))
-        room->frame_len = 0;
+    return len == 0 || le > FDL_LE_MAX || (dsap & FDL_AS_SD3) ? 0u : (uint8_t)(le + 6u);
+}
+
+/* Where other SAPs are asked meanwhile, frame_len of all rooms is 0 afterwards; where somebody else asks, DA SA FC may be a
+ * mixture. */
+#define BEING_WRITTEN 1u
+
+void fdl_reply_write(struct fdl_reply PAGED *reply, const uint8_t XDATA *lsdu, uint8_t len, uint8_t how)
+{
+    uint8_t frame_len;
+    uint8_t irq;
+
+    room = reply->spare;
+    room->frame_len = BEING_WRITTEN;
+    frame_len = write_spare(reply, lsdu, len);
     irq = hal_irq_save();
     if (room->frame_len)
-        room->frame_len = (uint8_t)(le + 6u);
+        room->frame_len = frame_len;
     reply->spare = reply->ready;
     reply->ready = room;
     reply->is = (uint8_t)((reply->is & ~FDL_SINGLE) | FDL_FRESH | FDL_VALID | (how & FDL_SINGLE));
