@@ -195,7 +195,7 @@ class Writer:
 
     def piece(self):
         d, r, v, place = self.dice, self.register(), self.variable(), self.place()
-        kind = d.randrange(22)
+        kind = d.randrange(23)
         if kind < 3:
             return [f"mov a,{self.pick(r, v, '#0x05', 'dpl')}"]
         if kind < 6:
@@ -214,6 +214,12 @@ class Writer:
             set_up = ["mov r6,#_x", "mov r7,#(_x >> 8)"] if low == "r6" else ["mov _p,#_y", "mov (_p + 1),#(_y >> 8)"]
             return self.pick(set_up, []) + set_up + [f"mov dpl,{low}", f"mov dph,{high}"] + ["inc dptr"] * d.randrange(7) + [
                 self.pick("movx a,@dptr", "movx @dptr,a")]
+        if kind == 22:
+            turns = d.randrange(1, 4)
+            self.labels += turns
+            return ["mov _p,#_y", "mov (_p + 1),#(_y >> 8)"] + [line for n in range(turns) for line in (
+                "mov dpl,_p", "mov dph,(_p + 1)", f"mov a,{self.pick(r, v)}", "movx @dptr,a", "inc _p", "clr a",
+                f"cjne a,_p,{self.labels - n:05d}$", "inc (_p + 1)", f"{self.labels - n:05d}$:")]
         if kind == 13:
             at = self.pick("r0", "r1")
             return [f"mov {at},#{self.pick('_i', '_j', '(_i + 1)')}", self.pick(f"mov a,@{at}", f"mov @{at},a", f"mov ar5,@{at}", f"mov @{at},#0x03")]

@@ -130,6 +130,27 @@ CASES = {
     "a member of what a pointer that is a variable's points to": (
         "mov ((_g + 0x0001) + 1),a / mov a,(_g + 0x0002) / mov _h,a / mov _p,a / ret",
         "mov ((_g + 0x0001) + 1),a / mov _h,a / mov _p,a / ret"),
+    "a pointer in memory counts in DPTR": (
+        "mov dpl,_p / mov dph,(_p + 1) / mov a,_g / movx @dptr,a / inc _p / clr a / cjne a,_p,00101$ / inc (_p + 1) / 00101$: / "
+        "mov dpl,_p / mov dph,(_p + 1) / mov a,_h / movx @dptr,a / inc _p / clr a / cjne a,_p,00102$ / inc (_p + 1) / 00102$: / "
+        "mov dpl,_p / mov dph,(_p + 1) / mov a,r7 / movx @dptr,a / ret",
+        "mov dpl,_p / mov dph,(_p + 1) / mov a,_g / movx @dptr,a / inc dptr / mov a,_h / movx @dptr,a / "
+        "inc dptr / mov _p,dpl / mov (_p + 0x0001),dph / mov a,r7 / movx @dptr,a / ret"),
+    "one that is not used again": (
+        "mov dpl,_p / mov dph,(_p + 1) / mov a,_g / movx @dptr,a / inc _p / clr a / cjne a,_p,00101$ / inc (_p + 1) / 00101$: / ret",
+        SAME),
+    "DPTR as it was is wanted": (
+        "mov dpl,_p / mov dph,(_p + 1) / mov a,_g / movx @dptr,a / inc _p / clr a / cjne a,_p,00101$ / inc (_p + 1) / 00101$: / "
+        "mov r7,dpl / mov dpl,_p / mov dph,(_p + 1) / mov a,r7 / movx @dptr,a / mov _h,a / ret", SAME),
+    "DPTR is another one": (
+        "mov dpl,_g / mov dph,(_p + 1) / mov a,_g / movx @dptr,a / inc _p / clr a / cjne a,_p,00101$ / inc (_p + 1) / 00101$: / "
+        "mov dpl,_p / mov dph,(_p + 1) / movx @dptr,a / ret", SAME),
+    "a variable set twice": ("mov _g,_h / mov _g,r7 / ret", "mov _g,r7 / ret"),
+    "a variable set twice, and read between": ("mov _g,_h / mov a,r6 / add a,_g / mov _p,a / mov _g,r7 / ret", SAME),
+    "a variable set twice, and perhaps read by a pointer": ("mov _g,_h / mov a,@r0 / mov _p,a / mov _g,r7 / ret",
+                                                            "mov _g,_h / mov _p,@r0 / mov _g,r7 / ret"),
+    "a variable set twice, a call between": (f"mov _g,_h / lcall _keep / mov _g,r7 / ret | {KEEP}", SAME),
+    "a variable set twice, a branch between": ("mov _g,_h / jc 00101$ / mov _g,r7 / 00101$: / ret", SAME),
     # ---- strides ----
     "five octets on": (
         "mov dpl,_p / mov dph,(_p + 1) / inc dptr / inc dptr / inc dptr / inc dptr / inc dptr / movx a,@dptr / mov _g,a / ret",

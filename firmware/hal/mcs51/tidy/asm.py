@@ -21,6 +21,7 @@ NUMBER = r"(0x[0-9a-f]+|\d+)"
 CELL = re.compile(rf"^(?:(_\w+)|\(\(?(_\w+) \+ {NUMBER}\)?(?: \+ {NUMBER}\))?)$")
 LOCAL = re.compile(r"^(_\w+)_\d+_\d+$")  # _function_name_65536_12
 CODE_AREAS = ("CSEG", "HOME")
+MEMORY = ("DSEG", "OSEG", "ISEG", "PSEG", "XSEG", "BSEG")
 BRANCHES = {"jz", "jnz", "jc", "jnc", "jb", "jnb", "jbc", "cjne", "djnz"}
 JUMPS = {"ljmp", "sjmp", "ajmp"}
 CALLS = {"lcall", "acall"}
@@ -37,6 +38,11 @@ def cell(operand):
     """(symbol, offset) of `_x`, `(_x + 3)` and `((_x + 3) + 1)`, None of anything else"""
     found = CELL.match(operand)
     return (found[1] or found[2], int(found[3] or "0", 0) + int(found[4] or "0", 0)) if found else None
+
+
+def spelled(where):
+    symbol, offset = where
+    return f"({symbol} + 0x{offset:04x})" if offset else symbol
 
 
 @lru_cache(None)
@@ -229,22 +235,22 @@ class Program:
                     self._named.setdefault(name, set()).add(function)
 
     def _find_data(self, volatile):
-        """plain: variables that nobody but compiled C changes behind the compiler's back; taken: functions' addresses"""
-        kinds, asm = {}, set()
+        """plain: {path: {name: area}}, variables that nobody but compiled C changes behind the compiler's back, as a file
+        knows them; taken: functions' addresses"""
+        by_hand = {name for f in self.functions if f.naked for line in f.code for operand in line.args
+                   for name in re.findall(r"_\w+", operand)}
+        own, everywhere = {}, {}
         for path, parts in self.parts.items():
-            area = ""
+            own[path], area = {}, ""
             for line in (line for part in parts for line in (part if isinstance(part, list) else ())):
                 if line.text.split()[:1] == [".area"]:
                     area = line.text.split()[1]
-                if line.label and area in ("DSEG", "OSEG", "ISEG", "PSEG", "XSEG", "BSEG"):
-                    kinds[line.label] = area
-                    local = LOCAL.match(line.label)
-                    if "/hal/mcs51/" in path and not local or self._may_be(line.label, volatile[path]):
-                        asm.add(line.label)
-        for f in self.functions:
-            if f.naked:
-                asm |= {name for line in f.code for operand in line.args for name in re.findall(r"_\w+", operand)}
-        self.plain = {name: kind for name, kind in kinds.items() if name not in asm}
+                elif line.label:
+                    left = line.label in by_hand or self._may_be(line.label, volatile[path]) or \
+                        "/hal/mcs51/" in path and not LOCAL.match(line.label)
+                    own[path][line.label] = area if area in MEMORY and not left else None
+            everywhere.update((name, kind) for name, kind in own[path].items() if name in self._globals[path])
+        self.plain = {path: {name: kind for name, kind in {**everywhere, **own[path]}.items() if kind} for path in own}
         self.taken = set()
         names = {f.name for f in self.functions}
         for parts in self.parts.values():

@@ -23,7 +23,7 @@ REGISTERS = [f"r{n}" for n in (2, 3, 4, 5, 6, 7, 1, 0)]
 
 def find_homes(program, flow, function, own):
     """-> did any move?"""
-    own = {name for name in own if program.plain[name] == "XSEG"}  # direct RAM is good enough
+    own = {name for name in own if program.plain[function.path][name] == "XSEG"}  # direct RAM is good enough
     if function.interrupt or function.name == "_main" or not own:
         return False
     moved = False

@@ -109,7 +109,7 @@ class Follower:
     """Walks one function; `improve` sees each instruction when `now` is what is known before it, and says what is there instead."""
 
     def __init__(self, program, flow, function, own):
-        self.program, self.flow, self.function, self.own = program, flow, function, own
+        self.plain, self.flow, self.function, self.own = program.plain[function.path], flow, function, own
         self.now, self.at_labels, self.loops = Known(), {}, self._loop_heads()
 
     def _loop_heads(self):
@@ -155,7 +155,7 @@ class Follower:
         if operand in ("@r0", "@r1"):
             at, kinds = self.now.of(operand[1:]), ("ISEG", "DSEG", "OSEG")
             where = at[1:] if at[0] == "low" and isinstance(at[1], str) else None
-        return where if where and self.program.plain.get(where[0]) in kinds else None
+        return where if where and self.plain.get(where[0]) in kinds else None
 
     def external(self, operand):
         if operand == "@dptr":
@@ -163,7 +163,7 @@ class Follower:
         else:
             at, kinds = self.now.of(operand[1:]), ("PSEG",)
             where = at[1:] if at[0] == "low" else (None, 0)
-        return where if isinstance(where[0], str) and self.program.plain.get(where[0]) in kinds else None
+        return where if isinstance(where[0], str) and self.plain.get(where[0]) in kinds else None
 
     def step(self, line):
         """What is known behind an instruction."""
@@ -210,8 +210,8 @@ class Follower:
             if first == "a":
                 now.put("a", now.of(line.where) if line.where else fresh())
             else:
-                if not line.where:
-                    now.forget_memory(self.own)
+                if not line.where:  # external RAM alone
+                    now.forget_memory(self.own | {n for n, kind in self.plain.items() if kind not in ("XSEG", "PSEG")})
                 else:
                     now.put(line.where, now.of("a"))
             return
@@ -249,7 +249,7 @@ class Follower:
         where = self.cell_of(first)
         if where:
             now.held[where] = fresh()
-        elif self.program.plain.get(first) != "BSEG":  # a port, or anywhere
+        elif self.plain.get(first) != "BSEG":  # a port, or anywhere
             now.forget_memory(self.own)
 
     def _branch(self, line):

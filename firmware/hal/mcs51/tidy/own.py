@@ -14,8 +14,8 @@ NAME = re.compile(r"_\w+")
 
 def own_memory(program, flow, function):
     """-> {symbol} after every movx of the function has got its `where`"""
-    Follower(program, flow, function, ()).walk(lambda line: [line])
-    mine = {n for n in named(function.code) if LOCAL.match(n) and program.plain.get(n) in ("XSEG", "DSEG", "OSEG", "BSEG")
+    Follower(program, flow, function, set()).walk(lambda line: [line])
+    mine = {n for n in named(function.code) if LOCAL.match(n) and program.plain[function.path].get(n) in ("XSEG", "DSEG", "OSEG", "BSEG")
             and program.named_in(n) == {function}}
     for line in function.code:
         for operand in line.args:

@@ -5,6 +5,7 @@
   DPTR points there already, or one octet before    nothing, or inc dptr
   a store of what the place holds                   nothing
   mov a,X / add a,Y with Y in A before              add a,X
+  *p++ twice                                        DPTR counts, p is set behind it
   mov R,X / anl R,#k / mov a,R                      the same in A, which is shorter
   mov R,a with one more, or less, than R has        inc R, dec R
   a copy in another register                        the one that has had it for longer: the copy may be unread then
@@ -12,19 +13,23 @@
 
 None makes anything longer, nor slower.
 """
-from asm import instruction, register, unknown
+from asm import A, BRANCHES, C, CALLS, DPTR, ENDS, F, cell, instruction, register, spelled, unknown
 from known import Follower, constant, plus, pointer
 
 COMMUTATIVE = ("add", "anl", "orl", "xrl")
+NEXT_USE = 8
+STOPS = ENDS | BRANCHES | CALLS
 REGISTERS = [f"r{n}" for n in range(8)]
 
 
 class Simplifier:
     def __init__(self, program, flow, function, own):
-        self.function, self.gone, self.changed = function, set(), False
+        self.flow, self.function, self.gone, self.changed = flow, function, set(), False
         self.follower = Follower(program, flow, function, own)
 
     def run(self):
+        live = self.flow.live(self.function, self.flow.wanted[self.function])
+        self.live = dict(zip(self.function.code, live))
         self.follower.walk(self.improve)
         if self.changed:
             self.function.refresh()
@@ -77,6 +82,8 @@ class Simplifier:
                 and self._is_r(first[1:]):
             self._drop_next(self._next(line))
             return [instruction(op, "a", first[1:]), instruction("mov", first[1:], "a")]
+        if op == "inc" and cell(first):
+            return self._counted_pointer(line, first)
         if op == "movx":
             return self._external(line, first, second)
         if op in ("clr", "setb") and first in ("a", "c"):
@@ -141,6 +148,25 @@ class Simplifier:
             return None
         self._drop_next([high] + steps[:there - offset])
         return []
+
+    def _counted_pointer(self, line, low):
+        """inc _p / clr a / cjne a,_p,L / inc (_p + 1) / L: where DPTR is _p, and will be again: inc dptr, and stored."""
+        where = cell(low)
+        at = self.function.lines.index(line)
+        rest = [other for other in self.function.lines[at + 1:] if other.op or other.label][:4 + NEXT_USE]
+        high = spelled((where[0], where[1] + 1))
+        if len(rest) < 5 or not rest[0].same("clr", "a") or rest[1].op != "cjne" or rest[1].args[:2] != ("a", low) or \
+                rest[2].op != "inc" or cell(rest[2].args[0]) != cell(high) or rest[3].label != rest[1].goes_to or rest[3].op or \
+                self.follower.cell_of(low) is None or self.live[rest[3]] & (A | C | F | DPTR) or \
+                sum(rest[3].label in other.args for other in self.function.code) != 1:
+            return None
+        ahead = rest[4:]
+        ahead = ahead[:next((n for n, other in enumerate(ahead) if not other.op or other.op in STOPS), len(ahead))]
+        uses = [other for other in ahead if other.op == "mov" and other.args[0] in ("dpl", "dptr")]
+        if not uses or not uses[0].same("mov", "dpl", low) or self._at() != pointer(self.now.of(where), self.now.of(cell(high))):
+            return None
+        self._drop_next(rest[:3])
+        return [instruction("inc", "dptr"), instruction("mov", low, "dpl"), instruction("mov", high, "dph")]
 
     # ---- moves ----
 

@@ -10,6 +10,7 @@ FROM = {True: 3, False: 5}
 
 
 def add_up(program, flow, function):
+    plain = program.plain[function.path]
     live = flow.live(function, flow.wanted[function])
     for n in range(len(function.code) - 2, -1, -1):
         low, high = function.code[n:n + 2]
@@ -19,8 +20,8 @@ def add_up(program, flow, function):
         while steps < len(function.code) and function.code[steps].same("inc", "dptr"):
             steps += 1
         count, x, y = steps - n - 2, low.args[1], high.args[1]
-        if count < FROM[function.name.endswith("_isr")] or live[steps] & (A | C | F) or not _simple(program, y) or \
-                not (x == "a" or _simple(program, x)):
+        if count < FROM[function.name.endswith("_isr")] or live[steps] & (A | C | F) or not _simple(plain, y) or \
+                not (x == "a" or _simple(plain, x)):
             continue
         for line in function.code[n + 1:steps]:
             function.drop(line)
@@ -30,6 +31,6 @@ def add_up(program, flow, function):
     function.refresh()
 
 
-def _simple(program, operand):
+def _simple(plain, operand):
     """A register of the bank, or a variable."""
-    return len(operand) == 2 and operand[0] == "r" or cell(operand) and cell(operand)[0] in program.plain
+    return len(operand) == 2 and operand[0] == "r" or cell(operand) and cell(operand)[0] in plain

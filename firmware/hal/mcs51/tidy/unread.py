@@ -1,6 +1,7 @@
 """What nobody reads afterwards is not written: registers, and memory that is a function's own.
 
   a register, or an own place, written and not read     nothing
+  a variable that is set, and at once set again         nothing the first time
   mov R,X ... add a,R and R not read any more           add a,X
   mov a,X / mov Y,a and A not read any more             mov Y,X
   push X ... pop X with X unchanged between             nothing
@@ -15,7 +16,7 @@ AHEAD = 6
 
 class Unread:
     def __init__(self, program, flow, function, own):
-        self.program, self.flow, self.function, self.own = program, flow, function, own
+        self.plain, self.flow, self.function, self.own = program.plain[function.path], flow, function, own
 
     def run(self):
         changed = False
@@ -29,7 +30,8 @@ class Unread:
         live = live_with_cells(self.flow, function, cells)
         ours = [n for n, line in enumerate(function.code)
                 if line.op and not line.label and line not in function.away and line not in function.switches]
-        unread = [function.code[n] for n in ours if self._is_unread(function.code[n], live[n + 1], cells.memory[function.code[n]])]
+        unread = [function.code[n] for n in ours if self._is_overwritten(n) or
+                  self._is_unread(function.code[n], live[n + 1], cells.memory[function.code[n]])]
         for line in unread:
             function.drop(line)
         changed = unread or any(self._passed_on(n, live) or self._saved_for_nothing(n, live) for n in reversed(ours))
@@ -49,12 +51,27 @@ class Unread:
         elsewhere = first.startswith("@") or not line.writes and not first == "ab"
         return not elsewhere and not line.writes & wanted
 
+    def _is_overwritten(self, n):
+        """A variable in direct RAM is set, and set again, with nothing between that might read it."""
+        line = self.function.code[n]
+        where = cell(line.args[0]) if line.op == "mov" else None
+        if not where or self.plain.get(where[0]) != "DSEG" or self._port(line.args[1]):
+            return False
+        for other in self.function.code[n + 1:]:
+            if other.label or not other.op or other.op in ENDS | BRANCHES | CALLS or other in self.function.switches or \
+                    any(cell(operand) == where for operand in other.args[other.op == "mov":]) or \
+                    any(operand[0] == "@" for operand in other.args) and other.op != "movx":
+                return False
+            if other.op == "mov" and cell(other.args[0]) == where:
+                return True
+        return False
+
     def _port(self, operand):
         """Reading it may do something, or give something else each time."""
         if operand[0] in "#@" or register(operand):
             return False
         where = cell(operand)
-        return operand != "ab" and operand != "nop" and not (where and where[0] in self.program.plain)
+        return operand != "ab" and operand != "nop" and not (where and where[0] in self.plain)
 
     # ---- a value that only passes through a register ----
 
@@ -91,7 +108,7 @@ class Unread:
         if source.startswith("#") or register(source):
             return False
         where = cell(source)
-        if not where or where[0] not in self.program.plain:
+        if not where or where[0] not in self.plain:
             return True  # a port, or through a pointer
         first = line.args[0] if line.args else "a"
         return first.startswith("@") and line.op != "movx" or cell(first) in (where, None) and not register(first)
