@@ -176,14 +176,14 @@ static uint8_t write_spare(struct fdl_reply PAGED *reply, const uint8_t XDATA *l
         put(ssap);
     if (dsap != FDL_SAP_NIL)
         put(dsap);
-    head = sum;
+    room->octets[1] = sum; /* not kept in a local: SDCC takes `sum` itself for its copy, over the call */
     from = lsdu;
     copy(len);
     to[0] = sum;
     to[1] = FDL_ED;
     to = room->octets;
     to[0] = len;
-    to[1] = (uint8_t)(sum - head);
+    to[1] = (uint8_t)(sum - to[1]);
     return len == 0 || le > FDL_LE_MAX || (dsap & FDL_AS_SD3) ? 0u : (uint8_t)(le + 6u);
 }
 
