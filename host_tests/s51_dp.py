@@ -35,16 +35,16 @@ DX_7D = "68 05 05 68 05 02 7D 11 22 B7 16"
 DX_5D = "68 05 05 68 05 02 5D 33 44 DB 16"
 FOREIGN = "68 05 05 68 84 82 6D 3C 3E ED 16"
 # the process inputs of the simulated board read back its outputs; NEW: answered with data, to another header than before
-CYCLIC, NEW = "T_SDR", "T_SDR_new"
+CYCLIC, NEW, AGAIN = "T_SDR", "T_SDR_new", "T_SDR_again"
 SCENE = [
     ("FDL status", STATUS, "10 02 05 00 07 16", CYCLIC),
     ("Slave_Diag, the first", DIAG_FIRST, "68 0B 0B 68 82 85 08 3E 3C 02 05 00 FF 12 34 D5 16", NEW),
     ("Set_Prm", SET_PRM, "E5", CYCLIC),
     ("Chk_Cfg", CHK_CFG, "E5", CYCLIC),
     ("Slave_Diag, the first", DIAG, "68 0B 0B 68 82 85 08 3E 3C 00 04 00 02 12 34 D5 16", NEW),
-    ("Slave_Diag", DIAG_7D, "68 0B 0B 68 82 85 08 3E 3C 00 04 00 02 12 34 D5 16", CYCLIC),
+    ("Slave_Diag", DIAG_7D, "68 0B 0B 68 82 85 08 3E 3C 00 04 00 02 12 34 D5 16", AGAIN),
     ("Data_Exchange, first", DX_5D, "68 05 05 68 02 05 08 00 00 0F 16", NEW),
-    ("Data_Exchange", DX_7D, "68 05 05 68 02 05 08 33 44 86 16", CYCLIC),
+    ("Data_Exchange", DX_7D, "68 05 05 68 02 05 08 33 44 86 16", AGAIN),
 ]
 RATES = {39: 9600, 4: 93750, 2: 187500}  # by the divisor of Timer 2 at 12 MHz
 RETRIES = 3

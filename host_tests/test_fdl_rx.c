@@ -1,4 +1,5 @@
-/* The telegram receiver over PHY: which octets become a telegram, and what is counted about the others.
+/* The telegram receiver over PHY: which octets become a telegram, and what is counted about the others. Each test is run with
+ * different telegrams awaited: that must not make a difference.
  * Clauses: EN 50170-2 part 4, 4.7.1 (formats, LE 4..249, FCS, ED); spec A3, D1. */
 #include "fake_hal.h"
 #include "fdl/fdl_priv.h"
@@ -11,15 +12,53 @@ static uint8_t telegrams, others, cancelled;
 static uint8_t body_len;
 HOT struct fdl_req fdl_req;
 HOT struct fdl_plan fdl_plan;
-static bool by_saps; /* the layer above asks for the octets behind the header first */
+HOT uint8_t fdl_ts;
+IDATA uint8_t fdl_skips_others;
 
-uint8_t fdl_header_isr(void) IN_ISR
+static uint8_t headers, saps;
+
+struct awaited {
+    uint8_t len; /* LE, 0: nothing is awaited */
+    uint8_t octets;
+    uint8_t model[PHY_MODEL];
+};
+static const CODE struct awaited awaits[] = {
+    {0, 0, {0}},
+    {5, 7, {0x68, 5, 5, 0x68, 0x08, 0x02, 0x7D}},
+    {5, 9, {0x68, 5, 5, 0x68, 0x88, 0x82, 0x6D, 0x3C, 0x3E}},
+    {5, 9, {0x68, 5, 5, 0x68, 0x88, 0x82, 0x6D, 0x3C, 0x3D}},
+    {5, 9, {0x68, 5, 5, 0x68, 0x88, 0x82, 0x6D, 0x3B, 0x3E}},
+    {5, 8, {0x68, 5, 5, 0x68, 0x88, 0x02, 0x6D, 0x3C}},
+    {5, 7, {0x68, 5, 5, 0x68, 0x08, 0x02, 0x5D}},
+    {5, 7, {0x68, 5, 5, 0x68, 0x08, 0x03, 0x7D}},
+    {13, 7, {0x68, 13, 13, 0x68, 0x08, 0x09, 0x06}},
+    {4, 7, {0x68, 4, 4, 0x68, 0x08, 0x02, 0x7D}},
+};
+static const CODE struct awaited *awaited;
+
+bool fdl_header_isr(void) IN_ISR
 {
-    return by_saps ? FDL_SHOW_SAPS : FDL_TAKE;
+    headers++;
+    return ((fdl_now.da | fdl_now.sa) & FDL_ADDRESS_EXT) && fdl_header.len != 3;
 }
 
 void fdl_saps_isr(void) IN_ISR
 {
+    saps++;
+}
+
+bool fdl_await_isr(void) IN_ISR
+{
+    uint8_t i;
+
+    if (!awaited->len)
+        return false;
+    fdl_plan.stage = FDL_AWAITED;
+    fdl_plan.awaited = awaited->octets;
+    fdl_header.len = awaited->len;
+    for (i = 0; i < awaited->octets; i++)
+        phy_model[PHY_MODEL - awaited->octets + i] = awaited->model[i];
+    return true;
 }
 
 void fdl_telegram_isr(void) IN_ISR
@@ -56,8 +95,12 @@ static void begin(uint8_t line)
     fake.line = line;
     fdl_counters = none;
     fdl_rx_buf = memory;
+    fdl_skips_others = false;
+    fdl_ts = 8;
     telegrams = 0;
     others = 0;
+    headers = 0;
+    saps = 0;
     phy_reset();
     fdl_rx_reset();
     phy_set_value(PHY_BAUD_RATE, PHY_BAUD_19K2);
@@ -91,6 +134,7 @@ static void an_sd1_telegram_has_three_octets_of_body(void)
     request("10 08 02 49 53 16"); /* 08 + 02 + 49 = 53 */
     TEST_ASSERT_EQUAL(1, telegrams);
     BODY("08 02 49");
+    fake_silence();
     TEST_ASSERT_EQUAL_UINT16(1, fdl_counters.sd_count);
 }
 
@@ -99,6 +143,53 @@ static void an_sd2_telegram_has_le_octets_of_body(void)
     request("68 05 05 68 88 82 6D 3C 3E F1 16");
     TEST_ASSERT_EQUAL(1, telegrams);
     BODY("88 82 6D 3C 3E");
+}
+
+/* The one of both that is awaited is known beforehand, the other one is looked at. */
+static void the_header_is_shown_before_the_end_of_a_telegram_that_was_not_awaited(void)
+{
+    const uint8_t looked_at = awaited == &awaits[2] ? 0 : 1;
+
+    fake_silence();
+    hear("68 05 05 68 88 82 6D 3C 3E");
+    TEST_ASSERT_EQUAL(looked_at, headers);
+    hear("F1 16");
+    TEST_ASSERT_EQUAL(looked_at, saps);
+    TEST_ASSERT_EQUAL(1, telegrams);
+}
+
+static void saps_are_shown_before_the_data_behind_them(void)
+{
+    fake_silence();
+    hear("68 06 06 68 88 82 6D 3C 3E");
+    TEST_ASSERT_EQUAL(1, saps);
+    hear("01 F2 16");
+    TEST_ASSERT_EQUAL(1, telegrams);
+}
+
+static void a_plan_given_up_under_the_awaited_telegram_is_made_at_its_end(void)
+{
+    fake_silence();
+    hear("68 05 05 68 88");
+    fdl_plan.stage = FDL_IDLE;
+    hear("82 6D 3C 3E F1 16");
+    TEST_ASSERT_EQUAL(1, headers);
+    TEST_ASSERT_EQUAL(1, saps);
+    TEST_ASSERT_EQUAL(1, telegrams);
+}
+
+static void telegrams_for_others_are_left_at_their_address_where_nobody_wants_them(void)
+{
+    fdl_skips_others = true;
+    request("68 05 05 68 89 82 6D 3C 3E F2 16");
+    request("10 09 02 49 54 16");
+    TEST_ASSERT_EQUAL(0, headers);
+    TEST_ASSERT_EQUAL(2, others);
+    fake_silence();
+    TEST_ASSERT_EQUAL_UINT16(2, fdl_counters.sd_count);
+    request("68 05 05 68 FF 82 46 3A 3E 3F 16"); /* to all */
+    TEST_ASSERT_EQUAL(1, telegrams);
+    the_next_telegram_is_heard();
 }
 
 static void an_sd3_telegram_has_eight_octets_of_data(void)
@@ -113,6 +204,7 @@ static void a_token_has_no_check_octets(void)
     request("DC 02 03");
     TEST_ASSERT_EQUAL(0, telegrams);
     TEST_ASSERT_EQUAL(1, others);
+    fake_silence();
     TEST_ASSERT_EQUAL_UINT16(1, fdl_counters.sd_count);
     the_next_telegram_is_heard();
 }
@@ -123,6 +215,7 @@ static void a_short_acknowledge_is_a_telegram_of_its_own(void)
     fake_silence();
     TEST_ASSERT_EQUAL(0, telegrams);
     TEST_ASSERT_EQUAL(1, others);
+    fake_silence();
     TEST_ASSERT_EQUAL_UINT16(1, fdl_counters.sd_count);
     the_next_telegram_is_heard();
 }
@@ -178,6 +271,7 @@ static void dropped(uint16_t count)
 static void an_octet_that_starts_no_telegram_is_an_sd_error(void)
 {
     request("11 08 02 49 53 16");
+    fake_silence();
     TEST_ASSERT_EQUAL_UINT16(0, fdl_counters.sd_count);
     dropped(fdl_counters.sd_error_count);
 }
@@ -220,7 +314,7 @@ static void length_3_is_too_short(void)
 
 static void length_0_is_too_short(void)
 {
-    request("68 00 00 68 00 16");
+    request("68 00 00 68 08 02 49 53 16");
     dropped(fdl_counters.format);
 }
 
@@ -324,6 +418,7 @@ static void on_an_untimed_line_telegrams_may_follow_each_other_at_once(void)
     hear("10 08 02 49 53 16");
     TEST_ASSERT_EQUAL(3, telegrams);
     TEST_ASSERT_EQUAL(2, others);
+    fake_silence();
     TEST_ASSERT_EQUAL_UINT16(5, fdl_counters.sd_count);
 }
 
@@ -347,12 +442,15 @@ static void a_chunk_nobody_asked_for_is_dropped(void)
     the_next_telegram_is_heard();
 }
 
-int main(void)
+static void all(void)
 {
-    UNITY_BEGIN();
     RUN_TEST(an_sd1_telegram_has_three_octets_of_body);
     RUN_TEST(an_sd2_telegram_has_le_octets_of_body);
     RUN_TEST(an_sd3_telegram_has_eight_octets_of_data);
+    RUN_TEST(the_header_is_shown_before_the_end_of_a_telegram_that_was_not_awaited);
+    RUN_TEST(saps_are_shown_before_the_data_behind_them);
+    RUN_TEST(a_plan_given_up_under_the_awaited_telegram_is_made_at_its_end);
+    RUN_TEST(telegrams_for_others_are_left_at_their_address_where_nobody_wants_them);
     RUN_TEST(a_token_has_no_check_octets);
     RUN_TEST(a_short_acknowledge_is_a_telegram_of_its_own);
     RUN_TEST(the_check_sum_is_taken_modulo_256);
@@ -379,5 +477,16 @@ int main(void)
     RUN_TEST(on_an_untimed_line_telegrams_may_follow_each_other_at_once);
     RUN_TEST(on_an_untimed_line_an_error_needs_silence_just_the_same);
     RUN_TEST(a_chunk_nobody_asked_for_is_dropped);
+}
+
+int main(void)
+{
+    uint8_t i;
+
+    UNITY_BEGIN();
+    for (i = 0; i < sizeof awaits / sizeof *awaits; i++) {
+        awaited = &awaits[i];
+        all();
+    }
     return UNITY_END();
 }

@@ -3,11 +3,13 @@
 #include "fake_hal.h"
 #include "phy_uart/phy_uart.h"
 
+static const uint8_t IDATA *model; /* of the chunk that is asked for */
+static uint8_t len, less;
 static struct {
     uint8_t chunks, syns, faults, sent, cancelled, events;
     uint8_t err, variable, value;
 } seen;
-static uint8_t XDATA room[8];
+static uint8_t XDATA room[10];
 static uint8_t XDATA frame[2];
 static bool again; /* another telegram may follow at once */
 
@@ -22,7 +24,9 @@ void phy_syn_ind_isr(void) IN_ISR
     seen.syns++;
     phy_rx.at = room;
     phy_rx.sum = 0;
-    phy_rx.left = 3;
+    phy_rx.model = model;
+    phy_rx.less = less;
+    phy_rx.left = len;
 }
 
 void phy_fault_ind_isr(uint8_t err) IN_ISR
@@ -59,6 +63,8 @@ static void forget(void)
 void setUp(void)
 {
     fake_begin();
+    model = PHY_MODEL_END;
+    len = 3;
     phy_reset();
     phy_set_value(PHY_BAUD_RATE, PHY_BAUD_19K2);
     forget();
@@ -101,6 +107,82 @@ static void octets_are_gathered_with_their_sum_and_announced_when_all_are_there(
     TEST_ASSERT_EQUAL(1, seen.chunks);
     OCTETS("F0 20 30", room, 3);
     TEST_ASSERT_EQUAL_HEX8(0x40, phy_rx.sum); /* F0 + 20 + 30 = 140H */
+}
+
+/* A head of seven octets 01..07 and, behind it, 08 are awaited, then two of any value. */
+static void await(void)
+{
+    uint8_t i;
+
+    for (i = 0; i < 8; i++)
+        phy_model[PHY_MODEL - 8 + i] = (uint8_t)(i + 1);
+    model = PHY_MODEL_END - 8;
+    len = 10;
+    less = 3;
+    fake_silence();
+}
+
+static void a_chunk_like_its_model_is_announced_when_it_is_whole(void)
+{
+    await();
+    hear("01 02 03 04 05 06 07 08 F1");
+    TEST_ASSERT_EQUAL(0, seen.chunks);
+    TEST_ASSERT_TRUE(phy_rx.model == PHY_MODEL_END);
+    hear("F2");
+    TEST_ASSERT_EQUAL(1, seen.chunks);
+    TEST_ASSERT_EQUAL(0, phy_rx.left);
+    TEST_ASSERT_EQUAL(3, phy_rx.less);
+    OCTETS("01 02 03 04 05 06 07 08 F1 F2", room, 10);
+    TEST_ASSERT_EQUAL_HEX8(0x07, phy_rx.sum); /* 24 + F1 + F2 = 207H */
+}
+
+static void over(uint8_t octets, uint8_t left)
+{
+    TEST_ASSERT_EQUAL(1, seen.chunks);
+    TEST_ASSERT_EQUAL(0, phy_rx.less);
+    TEST_ASSERT_EQUAL(left, phy_rx.left);
+    TEST_ASSERT_TRUE(phy_rx.model == PHY_MODEL_END);
+    TEST_ASSERT_TRUE(phy_rx.at == room + octets);
+}
+
+static void a_chunk_ends_with_its_second_octet_if_the_first_one_is_not_the_models(void)
+{
+    await();
+    hear("02");
+    TEST_ASSERT_EQUAL(0, seen.chunks);
+    hear("02");
+    over(2, 0);
+    TEST_ASSERT_EQUAL_HEX8(0x04, phy_rx.sum);
+}
+
+static void a_chunk_ends_with_its_head_if_another_octet_of_that_is_not_the_models(void)
+{
+    await();
+    hear("01 02 03 04 05 00");
+    TEST_ASSERT_EQUAL(0, seen.chunks);
+    hear("07");
+    over(7, 0);
+    OCTETS("01 02 03 04 05 00 07", room, 7);
+    TEST_ASSERT_EQUAL_HEX8(0x16, phy_rx.sum);
+    await();
+    seen.chunks = 0;
+    hear("01 00 00 00 00 00");
+    TEST_ASSERT_EQUAL(0, seen.chunks);
+    hear("07");
+    over(7, 0);
+    await();
+    seen.chunks = 0;
+    hear("01 02 03 04 05 06 00");
+    over(7, 0);
+}
+
+static void a_chunk_is_over_at_once_if_an_octet_behind_its_head_is_not_the_models(void)
+{
+    await();
+    hear("01 02 03 04 05 06 07");
+    TEST_ASSERT_EQUAL(0, seen.chunks);
+    hear("00");
+    over(8, 2);
 }
 
 static void octets_nobody_asked_for_are_dropped(void)
@@ -426,6 +508,10 @@ int main(void)
     UNITY_BEGIN();
     RUN_TEST(nothing_is_received_before_t_syn_of_silence);
     RUN_TEST(octets_are_gathered_with_their_sum_and_announced_when_all_are_there);
+    RUN_TEST(a_chunk_like_its_model_is_announced_when_it_is_whole);
+    RUN_TEST(a_chunk_ends_with_its_second_octet_if_the_first_one_is_not_the_models);
+    RUN_TEST(a_chunk_ends_with_its_head_if_another_octet_of_that_is_not_the_models);
+    RUN_TEST(a_chunk_is_over_at_once_if_an_octet_behind_its_head_is_not_the_models);
     RUN_TEST(octets_nobody_asked_for_are_dropped);
     RUN_TEST(a_deaf_receiver_hears_nothing_until_the_next_silence);
     RUN_TEST(a_faulty_octet_is_reported_with_its_flags_and_makes_the_receiver_deaf);

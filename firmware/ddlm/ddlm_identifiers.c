@@ -29,7 +29,7 @@ static uint8_t special_length(uint8_t id)
 }
 
 /* Where it is: in internal RAM, which halves the code. */
-static const uint8_t XDATA *HOT at;
+static const uint8_t XDATA *IDATA at;
 static IDATA uint16_t input;
 static IDATA uint16_t output;
 

@@ -105,12 +105,16 @@ void fdl_poll(void)
 {
     const uint8_t in = fdl_box_in; /* what comes meanwhile waits for the next turn */
     struct box XDATA *box;
+    uint8_t irq;
 
     while (fdl_box_out != in) {
         box = &boxes[fdl_box_out];
         fdl_data_ind(&box->ind);
         fdl_give_back(box->buffer);
+        irq = hal_irq_save();
         fdl_box_out = fdl_box_out == FDL_BOXES ? 0u : (uint8_t)(fdl_box_out + 1u);
+        fdl_resettle_isr();
+        hal_irq_restore(irq);
     }
 }
 
@@ -144,6 +148,8 @@ static void execute_isr(void) IN_ISR
 static void book_isr(void) IN_ISR
 {
     fdl_plan.stage = FDL_IDLE;
+    fdl_plan.awaited = 0;
+    fdl_turn_sent_isr();
     fdl_count_isr(&fdl_counters.requests);
     if (phy_tx.len)
         fdl_count_isr(&fdl_counters.answers);
@@ -164,6 +170,8 @@ void phy_done_ind_isr(bool sent) IN_ISR
         fdl_count_isr(&fdl_counters.cancelled);
     if (fdl_plan.stage == FDL_TO_BOOK)
         book_isr();
+    if (sent)
+        fdl_answered_isr();
 }
 
 /* The line was opened anew under the answer: the master will ask again, and that is then a new request. */
@@ -171,6 +179,8 @@ void fdl_drop_isr(void) IN_ISR
 {
     if (fdl_plan.stage == FDL_TO_BOOK) {
         fdl_plan.stage = FDL_IDLE;
+        fdl_plan.awaited = 0;
+        fdl_turn_sent_isr();
         fdl_last.len = 0;
     }
 }
@@ -185,13 +195,13 @@ static bool is_retry_isr(void) IN_ISR
            fdl_rx_buf[FDL_BODY + 4u] == fdl_last.more[1];
 }
 
-/* As planned: the room that is sent now is kept until the next answer. */
+/* As planned: the room that is sent now is kept until the next answer. (It is turned afterwards: the other station
+ * waits.) */
 static void take_reply_isr(void) IN_ISR
 {
     struct fdl_reply PAGED *reply = fdl_req.reply;
 
-    if (fdl_plan.is & FDL_FRESH)
-        fdl_turn_isr(reply);
+    fdl_plan.turn = fdl_plan.is & FDL_FRESH;
     if (fdl_plan.is & FDL_SINGLE)
         reply->is &= (uint8_t)~FDL_VALID;
     if (fdl_plan.late)
@@ -225,9 +235,12 @@ void fdl_telegram_isr(void) IN_ISR
         again_isr();
     else if (fdl_plan.is)
         take_reply_isr();
-    if (phy_tx.len)
+    if (phy_tx.len) {
         phy_answer_isr();
-    if (fdl_plan.stage == FDL_TO_BOOK && (phy_rx.untimed || phy_tx.len == 0))
+        if (!phy_rx.untimed)
+            return;
+    }
+    if (fdl_plan.stage == FDL_TO_BOOK)
         book_isr();
 }
 
@@ -250,13 +263,16 @@ uint8_t fdl_heard(void)
 
 void fdl_listen(bool all)
 {
-    fdl_others = all ? FDL_TAKE : FDL_SKIP;
+    fdl_skips_others = !all;
 }
 
 void fdl_watch(uint8_t station)
 {
+    uint8_t irq = hal_irq_save();
+
     fdl_watched = station;
-    fdl_plan.made = 0;
+    fdl_unplan_isr();
+    hal_irq_restore(irq);
 }
 
 void fdl_read_counters(struct fdl_counters XDATA *to)
@@ -273,7 +289,7 @@ void fdl_set_address(uint8_t ts)
 
     fdl_ts = ts;
     fdl_last.len = 0;
-    fdl_plan.made = 0;
+    fdl_unplan_isr();
     hal_irq_restore(irq);
 }
 
@@ -292,11 +308,12 @@ void fdl_reset(uint8_t ts)
     fdl_box_out = 0;
     heard = 0;
     fdl_watched = FDL_ALL;
-    fdl_others = FDL_TAKE;
+    fdl_skips_others = false;
     fdl_ts = ts;
     fdl_last.len = 0;
     fdl_plan.stage = FDL_IDLE;
-    fdl_plan.made = 0;
+    fdl_plan.turn = 0;
+    fdl_unplan_isr();
     fdl_rx_reset();
     fdl_sap_reset();
     hal_irq_restore(irq);

@@ -12,7 +12,7 @@
 HOT struct fdl_plan fdl_plan;
 HOT struct fdl_req fdl_req;
 HOT uint8_t fdl_ts;
-IDATA uint8_t fdl_others;
+IDATA uint8_t fdl_skips_others;
 IDATA uint8_t fdl_watched;
 
 /* Functions other than these are unknown to a responder and get no answer (our choice: 7, MSRD, and the clock
@@ -199,16 +199,37 @@ static void plan_isr(void) IN_ISR
     answer_isr();
 }
 
+/* ---- main changes something ------------------------------------------------------------------------------ */
+
+void fdl_unplan_isr(void) IN_ISR
+{
+    fdl_plan.made = 0;
+    fdl_plan.same = false; /* nor is it when only the SAPs are still to come */
+    if (fdl_plan.stage == FDL_AWAITED)
+        fdl_plan.stage = FDL_IDLE;
+}
+
+void fdl_resettle_isr(void) IN_ISR
+{
+    const uint8_t stage = fdl_plan.stage;
+
+    if (stage == FDL_PLANNED || stage == FDL_AWAITED)
+        answer_isr();
+    else
+        fdl_plan.awaited = 0;
+    fdl_plan.stage = stage;
+}
+
 void fdl_replan_isr(struct fdl_reply PAGED *reply) IN_ISR
 {
     if (!reply) {
-        fdl_plan.made = 0;
-        fdl_plan.same = false; /* nor is it when only the SAPs are still to come */
-    }
-    if (fdl_plan.stage != FDL_PLANNED)
+        fdl_unplan_isr();
+        if (fdl_plan.stage == FDL_PLANNED)
+            plan_isr();
         return;
-    if (!reply)
-        plan_isr();
+    }
+    if (fdl_plan.stage != FDL_PLANNED && fdl_plan.stage != FDL_AWAITED)
+        fdl_plan.awaited = 0;
     else if (reply == fdl_req.reply && !fdl_plan.refusal)
         reply_isr();
 }
@@ -236,98 +257,136 @@ static void read_header_isr(void) IN_ISR
         fdl_req.service = 0;
 }
 
-static uint8_t sap_isr(uint8_t sap) IN_ISR
-{
-    fdl_req.len--;
-    if (sap & EXT_UNKNOWN)
-        fdl_req.service = 0;
-    return sap;
-}
-
 /* [DAE] [SAE] */
 static void read_saps_isr(void) IN_ISR
 {
-    uint8_t second = fdl_header.more[0];
+    uint8_t sap = fdl_header.more[0];
 
     if (fdl_header.da & FDL_ADDRESS_EXT) {
-        fdl_req.dsap = sap_isr(second);
-        second = fdl_header.more[1];
+        fdl_req.dsap = sap;
+        if (sap & EXT_UNKNOWN)
+            fdl_req.service = 0;
+        fdl_req.len--;
+        sap = fdl_header.more[1];
     }
-    if (fdl_header.sa & FDL_ADDRESS_EXT)
-        fdl_req.ssap = sap_isr(second);
+    if (fdl_header.sa & FDL_ADDRESS_EXT) {
+        fdl_req.ssap = sap;
+        if (sap & EXT_UNKNOWN)
+            fdl_req.service = 0;
+        fdl_req.len--;
+    }
     if (fdl_req.len > FDL_LE_MAX) /* below 0: the SAPs are not there */
         fdl_req.service = 0;
 }
 
-/* All is known. */
+/* All is known. A plan is good for the next time, too, if the reply that belongs to it has been addressed now. */
 static void make_isr(void) IN_ISR
 {
-    fdl_plan.stage = FDL_UNKNOWN;
     if (fdl_req.service == 0)
         return;
     plan_isr();
-    if (!fdl_req.sd3)
+    if (!fdl_req.sd3 && fdl_req.reply == fdl_plan.row_reply)
         fdl_plan.made = fdl_header.len;
 }
 
-static HOT uint8_t da; /* of the telegram coming in; fdl_header has them once it is for us */
-static HOT uint8_t sa;
-static HOT uint8_t fc;
-
-uint8_t fdl_header_isr(void) IN_ISR
+/* Perhaps a retry? */
+static void number_isr(void) IN_ISR
 {
-    uint8_t to;
-
-    da = fdl_rx_buf[FDL_BODY];
-    sa = fdl_rx_buf[FDL_BODY + 1u];
-    fc = fdl_rx_buf[FDL_BODY + 2u];
-    fdl_plan.same = false;
-    if (da == fdl_header.da && sa == fdl_header.sa && !((fc ^ fdl_header.fc) & (uint8_t)~FDL_FC_FCB) &&
-        fdl_plan.made == fdl_header.len) {
-        fdl_plan.same = true;
-    } else {
-        to = da & 0x7Fu;
-        fdl_plan.stage = FDL_OTHERS;
-        if (to != fdl_ts && to != FDL_BROADCAST)
-            return fdl_others;
-        if (!(fc & FDL_FC_REQUEST))
-            return FDL_TAKE;
-        fdl_header.da = da;
-        fdl_header.sa = sa;
-    }
-    fdl_header.fc = fc;
     fdl_plan.again = 0;
-    if (fc == fdl_last.fc)
-        fdl_plan.again = fc & FDL_FC_FCV;
+    if (fdl_header.fc == fdl_last.fc)
+        fdl_plan.again = fdl_header.fc & FDL_FC_FCV;
+}
+
+bool fdl_header_isr(void) IN_ISR
+{
+    if (!(fdl_now.fc & FDL_FC_REQUEST))
+        return false;
     fdl_plan.stage = FDL_UNKNOWN;
-    if (((da | sa) & FDL_ADDRESS_EXT) && fdl_header.len != 3u)
-        return FDL_SHOW_SAPS;
-    if (fdl_plan.same) {
-        answer_isr();
-        return FDL_TAKE;
+    fdl_plan.same = fdl_plan.made == fdl_header.len;
+    if (fdl_now.da != fdl_header.da || fdl_now.sa != fdl_header.sa ||
+        ((fdl_now.fc ^ fdl_header.fc) & (uint8_t)~(FDL_FC_FCB | FDL_FC_FCV))) {
+        fdl_plan.same = false;
+        fdl_header.da = fdl_now.da;
+        fdl_header.sa = fdl_now.sa;
     }
-    fdl_plan.made = 0;
-    read_header_isr();
-    if ((da | sa) & FDL_ADDRESS_EXT)
+    fdl_header.fc = fdl_now.fc;
+    fdl_plan.awaited = 0;
+    number_isr();
+    if (!fdl_plan.same) {
+        fdl_plan.made = 0;
+        read_header_isr();
+    }
+    if ((fdl_now.da | fdl_now.sa) & FDL_ADDRESS_EXT) {
+        if (fdl_header.len != 3u)
+            return true;
         fdl_req.service = 0; /* and no SAPs */
-    make_isr();
-    return FDL_TAKE;
+    }
+    if (fdl_plan.same)
+        answer_isr();
+    else
+        make_isr();
+    return false;
 }
 
 void fdl_saps_isr(void) IN_ISR
 {
     const uint8_t XDATA *more = fdl_rx_buf + (FDL_BODY + 3u);
-    const uint8_t first = more[0];
-    const uint8_t second = more[1];
+    const uint8_t first = *more++;
+    const uint8_t second = *more;
 
-    if (fdl_plan.same && first == fdl_header.more[0] && second == fdl_header.more[1]) {
-        answer_isr();
-        return;
+    if (fdl_plan.same) {
+        if (first == fdl_header.more[0] && second == fdl_header.more[1]) {
+            answer_isr();
+            return;
+        }
+        fdl_plan.made = 0;
+        read_header_isr();
     }
-    fdl_plan.made = 0;
     fdl_header.more[0] = first;
     fdl_header.more[1] = second;
-    read_header_isr();
     read_saps_isr();
     make_isr();
+}
+
+/* ---- the next one ---------------------------------------------------------------------------------------- */
+
+/* A numbered request, or the first of a row of them, is followed by one with the other FCB. */
+void fdl_answered_isr(void) IN_ISR
+{
+    if (fdl_header.fc & (FDL_FC_FCB | FDL_FC_FCV))
+        fdl_header.fc = (uint8_t)((fdl_header.fc | FDL_FC_FCV) ^ FDL_FC_FCB);
+}
+
+/* What the next telegram looks like that has the header of the plan. */
+static void model_isr(void) IN_ISR
+{
+    uint8_t IDATA *at = PHY_MODEL_END;
+
+    if (fdl_header.sa & FDL_ADDRESS_EXT)
+        *--at = fdl_header.da & FDL_ADDRESS_EXT ? fdl_header.more[1] : fdl_header.more[0];
+    if (fdl_header.da & FDL_ADDRESS_EXT)
+        *--at = fdl_header.more[0];
+    *--at = fdl_header.fc;
+    *--at = fdl_header.sa;
+    *--at = fdl_header.da;
+    *--at = FDL_SD2;
+    *--at = fdl_header.len;
+    *--at = fdl_header.len;
+    *--at = FDL_SD2;
+    fdl_plan.awaited = (uint8_t)(PHY_MODEL_END - at);
+}
+
+bool fdl_await_isr(void) IN_ISR
+{
+    if (fdl_plan.made < FDL_LE_MIN || fdl_plan.made > FDL_BODY_MAX)
+        return false;
+    fdl_header.len = fdl_plan.made;
+    if (!fdl_plan.awaited) {
+        number_isr();
+        fdl_plan.same = true;
+        answer_isr();
+        model_isr();
+    }
+    fdl_plan.stage = FDL_AWAITED;
+    return true;
 }

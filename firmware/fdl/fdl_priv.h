@@ -29,14 +29,24 @@ extern HOT struct fdl_header fdl_header;
 /* Forget what was being received. main with interrupts masked. */
 void fdl_rx_reset(void);
 
-/* Implemented by fdl_plan.c: len, and DA SA FC in fdl_rx_buf, have been received, FCS not yet checked: nothing may be
- * done that lasts. -> FDL_SKIP: nobody here wants the rest, hear nothing until the next T_SYN; FDL_TAKE: go on to the
- * end; FDL_SHOW_SAPS: tell when the (up to) two octets behind them are there. */
-enum fdl_wants { FDL_SKIP, FDL_TAKE, FDL_SHOW_SAPS };
-uint8_t fdl_header_isr(void) IN_ISR;
+/* DA SA FC of the telegram coming in; fdl_header has them once it is a request to us. */
+struct fdl_now {
+    uint8_t da;
+    uint8_t sa;
+    uint8_t fc;
+};
+extern HOT struct fdl_now fdl_now;
+
+/* Implemented by fdl_plan.c: fdl_now and len have been received, for us or for all; FCS not yet checked: nothing may be
+ * done that lasts. -> The (up to) two octets behind them are SAPs: tell when they are there. */
+bool fdl_header_isr(void) IN_ISR;
 
 /* Implemented by fdl_plan.c: these are there. FCS not yet checked. */
 void fdl_saps_isr(void) IN_ISR;
+
+/* Implemented by fdl_plan.c: T_SYN is over. -> One telegram is awaited: it is planned, fdl_header says which one, and the
+ * last fdl_plan.awaited octets of phy_model how it begins. */
+bool fdl_await_isr(void) IN_ISR;
 
 /* Implemented by fdl.c: fdl_rx_buf holds a telegram with good FCS and ED, its body from fdl_rx_buf[FDL_BODY] on. */
 void fdl_telegram_isr(void) IN_ISR;
@@ -85,6 +95,7 @@ extern HOT uint8_t fdl_ts; /* this station's address */
  * the plan anew where it changes what a plan was made from: at the end there is nothing left to decide. */
 enum fdl_stage {
     FDL_IDLE,
+    FDL_AWAITED, /* the request that will come next is planned                        */
     FDL_OTHERS,  /* what is coming in is not for us                                   */
     FDL_UNKNOWN, /* it is for us, and no request that a responder knows               */
     FDL_PLANNED, /* a request to us is coming in                                      */
@@ -105,11 +116,13 @@ struct fdl_plan {
     uint8_t handling; /* who executes the request: FDL_ANSWER_ONLY: nobody                */
     uint8_t is;       /* of fdl_req.reply, FDL_FRESH only where it is to be turned        */
     uint8_t late;     /* the frame of fdl_req.reply is to be built when the telegram is good */
+    uint8_t turn;     /* what is being sent is `ready` of fdl_req.reply: to be turned                    */
     uint8_t again;    /* FC is that of the request answered last: perhaps a retry         */
 
     /* What follows from header and SAPs alone stays as it is while the same ones come again and main changes nothing:
      * in cyclic traffic nearly always. */
     uint8_t made;     /* for a header with this length; 0: not at all */
+    uint8_t awaited;  /* octets of the model of the telegram that is planned and may come next; 0: none is */
     uint8_t same;     /* the header is the same, its SAPs are to come */
     uint8_t result;   /* FDL_OK, or what the SAP's row refuses with    */
     uint8_t row_handling;
@@ -135,14 +148,26 @@ struct fdl_last {
 extern IDATA struct fdl_last fdl_last;
 
 extern IDATA uint8_t fdl_watched;
-extern IDATA uint8_t fdl_others; /* FDL_TAKE, or FDL_SKIP: telegrams of others are of no interest */
+extern IDATA uint8_t fdl_skips_others; /* telegrams of others are of no interest */
 
 bool fdl_box_is_free_isr(void) IN_ISR;
 
 /* main, locked: SAP, reply or address have changed (reply: only this one; 0: anything). */
 void fdl_replan_isr(struct fdl_reply PAGED *reply) IN_ISR;
 
+/* main, locked: fdl_ask_isr() or a box may say another thing now. */
+void fdl_resettle_isr(void) IN_ISR;
+
+/* main, locked: no plan of a telegram to come is right any more. */
+void fdl_unplan_isr(void) IN_ISR;
+
+/* The answer is out: the next request has another FCB. */
+void fdl_answered_isr(void) IN_ISR;
+
 /* Take `ready` for `sent`. */
 void fdl_turn_isr(struct fdl_reply PAGED *reply) IN_ISR;
+
+/* The same for what is being sent, if that has not been done yet. isr, lock. */
+void fdl_turn_sent_isr(void) IN_ISR;
 
 #endif

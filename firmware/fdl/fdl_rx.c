@@ -13,23 +13,28 @@ enum rx_state {
     RX_SYN,      /* T_SYN of silence: the receiver is deaf. Out of step, only that resynchronises */
     RX_ALONE,    /* a start delimiter, on a line that cannot show silence     */
     RX_SD,       /* a start delimiter and the octet behind it                 */
-    RX_SD2_HEAD, /* LEr SD2                                                   */
-    RX_HEADER,   /* what is left of DA SA FC                                  */
+    RX_SD2_HEAD, /* LEr SD2 DA SA FC                                          */
+    RX_HEADER,   /* SA FC, of the other formats                               */
     RX_SAPS,     /* DAE SAE                                                   */
     RX_TOKEN,    /* SA of a token                                             */
     RX_PIECE,    /* a piece of a telegram that is longer than the buffer      */
     RX_BODY,     /* the rest, up to ED                                        */
+    RX_AWAITED,  /* all of the telegram that is awaited, unless it is another */
 };
 
 uint8_t XDATA *HOT fdl_rx_buf;
 HOT struct fdl_header fdl_header;
+HOT struct fdl_now fdl_now;
 
 static HOT uint8_t state;
+static IDATA uint8_t good_sd; /* the last SD was one: counted at the end of the telegram, which is answered first */
 static IDATA uint8_t missing; /* octets of body, FCS and ED to come */
 
-#define HEADER_LEN 3u /* DA SA FC            */
-#define KEPT_LEN   5u /* DA SA FC and two more: kept even of a telegram that is too long */
-#define TAIL_LEN   2u /* FCS ED              */
+#define SD2_HEAD_LEN 4u /* SD2 LE LEr SD2 */
+#define HEADER_LEN   3u /* DA SA FC       */
+#define KEPT_LEN     5u /* DA SA FC and two more: kept even of a telegram that is too long */
+#define TAIL_LEN     2u /* FCS ED         */
+#define ONLY_SAPS    (KEPT_LEN - HEADER_LEN + TAIL_LEN) /* no data behind them: they come with FCS and ED */
 
 /* A function, because SDCC makes 17 octets of code of each increment. */
 void fdl_count_isr(uint16_t XDATA *count) IN_ISR
@@ -39,18 +44,32 @@ void fdl_count_isr(uint16_t XDATA *count) IN_ISR
 
 void fdl_rx_reset(void)
 {
+    good_sd = false;
     state = RX_SYN;
 }
 
-/* Two octets: at 187.5 kbit/s an 8-bit part has no time to look at each. Only the short acknowledge is shorter,
- * and is known by the silence behind it; where none can be seen, one octet must do. */
+/* The telegram awaited, as a whole. Else two octets: at 187.5 kbit/s an 8-bit part has no time to look at each. Only the
+ * short acknowledge is shorter, and is known by the silence behind it; where none can be seen, one octet must do. */
 static uint8_t wait_sd_isr(void) IN_ISR
 {
-    phy_rx.at = fdl_rx_buf;
+    if (good_sd)
+        fdl_count_isr(&fdl_counters.sd_count);
+    good_sd = false;
+    phy_rx.model = PHY_MODEL_END;
     if (phy_rx.untimed) {
+        phy_rx.at = fdl_rx_buf;
         phy_rx.left = 1;
         return RX_ALONE;
     }
+    if (fdl_await_isr()) {
+        phy_rx.at = fdl_rx_buf;
+        phy_rx.model = PHY_MODEL_END - fdl_plan.awaited;
+        phy_rx.left = (uint8_t)(fdl_header.len + SD2_HEAD_LEN + TAIL_LEN);
+        phy_rx.less = (uint8_t)(fdl_header.len - HEADER_LEN + TAIL_LEN);
+        phy_rx.sum = (uint8_t)(0u - 2u * FDL_SD2 - 2u * fdl_header.len); /* from DA on */
+        return RX_AWAITED;
+    }
+    phy_rx.at = fdl_rx_buf;
     phy_rx.left = 2;
     return RX_SD;
 }
@@ -58,9 +77,7 @@ static uint8_t wait_sd_isr(void) IN_ISR
 /* A telegram has ended, good or foreign. */
 static uint8_t telegram_end_isr(void) IN_ISR
 {
-    if (phy_rx.untimed)
-        return wait_sd_isr();
-    return RX_SYN;
+    return phy_rx.untimed ? wait_sd_isr() : RX_SYN;
 }
 
 /* The rest, in pieces where it is longer than the buffer: what is kept stays, what follows it is overwritten by the
@@ -78,28 +95,35 @@ static uint8_t want_rest_isr(uint8_t room) IN_ISR
 
 #define ROOM_BEHIND(octets) ((uint8_t)(FDL_BUF_LEN - FDL_BODY - (octets)))
 
-/* DA SA FC are there. They are looked at now, while the rest comes in: what is decided here costs no T_SDR. */
-static uint8_t header_isr(void) IN_ISR
+/* DA SA FC are there, at their place. They are looked at now, while the rest comes in: what is decided here costs no
+ * T_SDR. */
+static uint8_t st_header_isr(void) IN_ISR
 {
-    const uint8_t wants = fdl_header_isr();
+    uint8_t to;
 
-    if (wants == FDL_SKIP && !phy_rx.untimed) {
+    fdl_now.da = fdl_rx_buf[FDL_BODY];
+    fdl_now.sa = fdl_rx_buf[FDL_BODY + 1u];
+    fdl_now.fc = fdl_rx_buf[FDL_BODY + 2u];
+    phy_rx.sum = (uint8_t)(fdl_now.da + fdl_now.sa + fdl_now.fc);
+    missing = (uint8_t)(fdl_header.len - HEADER_LEN + TAIL_LEN);
+    to = fdl_now.da & 0x7Fu;
+    if (to == fdl_ts || to == FDL_BROADCAST) {
+        if (fdl_header_isr()) {
+            phy_rx.left = missing <= ONLY_SAPS ? missing : KEPT_LEN - HEADER_LEN;
+            return RX_SAPS;
+        }
+    } else if (fdl_skips_others && !phy_rx.untimed) {
         fdl_other_isr();
         return RX_SYN;
     }
-    missing = (uint8_t)(fdl_header.len - HEADER_LEN + TAIL_LEN);
-    if (wants != FDL_SHOW_SAPS)
-        return want_rest_isr(ROOM_BEHIND(HEADER_LEN));
-    phy_rx.left = KEPT_LEN - HEADER_LEN; /* of a body of four, the second one is FCS */
-    return RX_SAPS;
+    return want_rest_isr(ROOM_BEHIND(HEADER_LEN));
 }
 
-/* DA is there, for formats that begin with it. */
+/* DA is there, right behind SD. */
 static uint8_t start_body_isr(uint8_t len) IN_ISR
 {
     fdl_header.len = len;
-    phy_rx.sum = fdl_rx_buf[1];
-    fdl_rx_buf[FDL_BODY] = phy_rx.sum;
+    fdl_rx_buf[FDL_BODY] = fdl_rx_buf[1];
     phy_rx.at = fdl_rx_buf + (FDL_BODY + 1u);
     phy_rx.left = HEADER_LEN - 1u;
     return RX_HEADER;
@@ -107,7 +131,7 @@ static uint8_t start_body_isr(uint8_t len) IN_ISR
 
 static uint8_t bad_sd_isr(void) IN_ISR
 {
-    fdl_counters.sd_count--;
+    good_sd = false;
     fdl_count_isr(&fdl_counters.sd_error_count);
     return RX_SYN;
 }
@@ -116,10 +140,11 @@ static uint8_t st_sd_isr(void) IN_ISR
 {
     uint8_t sd = fdl_rx_buf[0];
 
-    fdl_counters.sd_count++; /* written out: it is in the way of every telegram */
+    fdl_plan.stage = FDL_OTHERS;
+    good_sd = true;
     fdl_req.sd3 = 0;
     if (sd == FDL_SD2) {
-        phy_rx.left = 2;
+        phy_rx.left = SD2_HEAD_LEN - 2u + HEADER_LEN;
         return RX_SD2_HEAD;
     }
     if (sd == FDL_SD1)
@@ -157,21 +182,12 @@ static uint8_t st_sd2_head_isr(void) IN_ISR
         fdl_count_isr(&fdl_counters.format);
         return RX_SYN;
     }
-    phy_rx.sum = 0;
-    phy_rx.left = HEADER_LEN;
-    return RX_HEADER;
+    return st_header_isr();
 }
 
 static uint8_t st_piece_isr(void) IN_ISR
 {
     phy_rx.at = fdl_rx_buf + FDL_BODY + KEPT_LEN;
-    return want_rest_isr(ROOM_BEHIND(KEPT_LEN));
-}
-
-static uint8_t st_saps_isr(void) IN_ISR
-{
-    fdl_saps_isr();
-    missing = (uint8_t)(missing - (KEPT_LEN - HEADER_LEN));
     return want_rest_isr(ROOM_BEHIND(KEPT_LEN));
 }
 
@@ -193,10 +209,77 @@ static uint8_t st_body_isr(void) IN_ISR
     return telegram_end_isr();
 }
 
+static uint8_t st_saps_isr(void) IN_ISR
+{
+    fdl_saps_isr();
+    if (missing <= ONLY_SAPS)
+        return st_body_isr();
+    missing = (uint8_t)(missing - (KEPT_LEN - HEADER_LEN));
+    return want_rest_isr(ROOM_BEHIND(KEPT_LEN));
+}
+
+/* Not the telegram awaited, and that was seen behind the header. */
+static uint8_t st_other_saps_isr(void) IN_ISR
+{
+    const uint8_t there = (uint8_t)(phy_rx.at - fdl_rx_buf);
+    const uint8_t sum = phy_rx.sum;
+    uint8_t next;
+
+    phy_rx.left = 0;
+    next = st_sd2_head_isr();
+    if (next == RX_SYN)
+        return RX_SYN;
+    phy_rx.sum = sum;
+    phy_rx.left = (uint8_t)(phy_rx.left - (uint8_t)(there - (FDL_BODY + HEADER_LEN)));
+    return phy_rx.left ? next : st_saps_isr();
+}
+
+/* Not the telegram awaited: two octets of it, its header, or more. */
+static uint8_t st_another_isr(void) IN_ISR
+{
+    fdl_plan.stage = FDL_OTHERS;
+    good_sd = true;
+    if (phy_rx.left)
+        return st_other_saps_isr();
+    if (fdl_rx_buf[0] == FDL_SD2)
+        return st_sd2_head_isr();
+    return st_sd_isr();
+}
+
+/* Main has changed what the plan of the telegram awaited was made from: it is made now. */
+static void plan_late_isr(void) IN_ISR
+{
+    const uint8_t sum = phy_rx.sum;
+
+    fdl_plan.stage = FDL_OTHERS;
+    if (st_header_isr() == RX_SAPS)
+        fdl_saps_isr();
+    phy_rx.sum = sum;
+    phy_rx.left = 0;
+}
+
+/* The telegram awaited, or another one. */
+static void st_awaited_isr(void) IN_ISR
+{
+    if (!phy_rx.less) {
+        state = st_another_isr();
+        return;
+    }
+    if (fdl_plan.stage == FDL_AWAITED)
+        fdl_plan.stage = FDL_PLANNED;
+    else
+        plan_late_isr();
+    state = st_body_isr();
+    good_sd = true;
+}
+
 void phy_chunk_ind_isr(void) IN_ISR
 {
-    if (state == RX_BODY) { /* first: the other station waits */
-        state = st_body_isr();
+    if (state >= RX_BODY) { /* first: the other station waits */
+        if (state == RX_BODY)
+            state = st_body_isr();
+        else
+            st_awaited_isr();
         return;
     }
     switch (state) {
@@ -210,7 +293,7 @@ void phy_chunk_ind_isr(void) IN_ISR
         state = st_sd2_head_isr();
         break;
     case RX_HEADER:
-        state = header_isr();
+        state = st_header_isr();
         break;
     case RX_SAPS:
         state = st_saps_isr();
@@ -228,9 +311,23 @@ void phy_chunk_ind_isr(void) IN_ISR
     }
 }
 
+/* T_SYN or a bad octet in the telegram awaited, or before it. */
+static void leave_awaited_isr(void) IN_ISR
+{
+    if (state != RX_AWAITED)
+        return;
+    if (phy_rx.at == fdl_rx_buf)
+        state = RX_SYN;
+    else if (fdl_rx_buf[0] == FDL_SD2)
+        good_sd = true;
+    else
+        state = RX_SD;
+}
+
 void phy_syn_ind_isr(void) IN_ISR
 {
     fdl_drop_isr();
+    leave_awaited_isr();
     if (state == RX_SD && phy_rx.left == 1)
         state = st_sd_isr(); /* one octet and then silence: a short acknowledge, or nothing that makes sense */
     if (state > RX_SD)
@@ -244,5 +341,6 @@ void phy_fault_ind_isr(uint8_t err) IN_ISR
         fdl_count_isr(&fdl_counters.overrun);
     else
         fdl_count_isr(&fdl_counters.parity);
+    leave_awaited_isr();
     state = RX_SYN;
 }

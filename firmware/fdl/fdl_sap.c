@@ -200,6 +200,7 @@ void fdl_reply_write(struct fdl_reply PAGED *reply, const uint8_t XDATA *lsdu, u
     room->frame_len = BEING_WRITTEN;
     frame_len = write_spare(reply, lsdu, len);
     irq = hal_irq_save();
+    fdl_turn_sent_isr();
     if (room->frame_len)
         room->frame_len = frame_len;
     reply->spare = reply->ready;

@@ -80,6 +80,13 @@ void fdl_turn_isr(struct fdl_reply PAGED *reply) IN_ISR
     reply->is &= (uint8_t)~FDL_FRESH;
 }
 
+void fdl_turn_sent_isr(void) IN_ISR
+{
+    if (fdl_plan.turn)
+        fdl_turn_isr(fdl_req.reply);
+    fdl_plan.turn = 0;
+}
+
 /* What Freeze takes may give up the room of the answer kept for a retry. */
 void fdl_reply_release_isr(struct fdl_reply PAGED *reply) IN_ISR
 {

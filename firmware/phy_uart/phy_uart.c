@@ -26,6 +26,7 @@ static const CODE struct phy_rate rates[PHY_BAUDS] = {
 
 HOT volatile struct phy_rx phy_rx;
 HOT struct phy_tx phy_tx;
+IDATA uint8_t phy_model[PHY_MODEL];
 
 /* Invariant: at most one of phy_rx.waiting and sending is set; but in the loop both may be, when we answer ourselves. */
 static HOT volatile struct {
@@ -62,6 +63,20 @@ static void cancel_answer_isr(void) IN_ISR
     phy_done_ind_isr(false);
 }
 
+/* An octet is not the model's -> The chunk is over. */
+static bool another_isr(void) IN_ISR
+{
+    const uint8_t less = phy_rx.less;
+    const uint8_t head = (uint8_t)(phy_rx.left - less);
+
+    phy_rx.model = PHY_MODEL_END;
+    phy_rx.less = 0;
+    if (phy_rx.left <= less)
+        return true;
+    phy_rx.left = head == PHY_HEAD ? 2u : head;
+    return false;
+}
+
 void line_octet_isr(uint8_t octet, uint8_t err) IN_ISR
 {
     if (phy_rx.waiting)
@@ -76,8 +91,12 @@ void line_octet_isr(uint8_t octet, uint8_t err) IN_ISR
     *phy_rx.at = octet;
     phy_rx.at++;
     phy_rx.sum = (uint8_t)(phy_rx.sum + octet);
-    if (--phy_rx.left == 0)
+    if (phy_rx.model != PHY_MODEL_END && *phy_rx.model++ != octet && another_isr()) {
+        phy_rx.left--;
         phy_chunk_ind_isr();
+    } else if (--phy_rx.left == 0) {
+        phy_chunk_ind_isr();
+    }
 }
 
 void line_silence_isr(void) IN_ISR

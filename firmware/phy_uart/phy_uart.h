@@ -6,6 +6,8 @@
  * Receiving by chunks. The layer above says where the next n octets go; it is called when they are all there,
  * not for each one. Between two calls an octet costs a store, an addition and a decrement, whatever the
  * telegram: that is what lets an 8-bit part follow 187.5 kbit/s, and it is the shape of a DMA transfer.
+ * It may say, too, how the chunk will begin if it is what it expects; if it is not, the chunk is over sooner. So a
+ * telegram like the one before is one chunk, and its receiver is called once, at its end.
  */
 #ifndef FIELDLING_PHY_UART_H
 #define FIELDLING_PHY_UART_H
@@ -70,9 +72,13 @@ void phy_event_ind(uint8_t variable, uint8_t value);
 /* ---- octets, isr ---------------------------------------------------------------------------------------- */
 
 /* Where the receiver is in the chunk. The layer above sets at and left (1..255) to ask for octets, in an upcall.
- * left == 0: deaf, octets are dropped until it asks for more. A port may do
- * an octet's work on this struct itself where line_octet_isr() costs too much, and need not call it at all while the
- * receiver is deaf and no answer waits. When a chunk is complete the receiver is deaf.
+ * left == 0: deaf, octets are dropped until it asks for more. A port may do an octet's work on this struct itself
+ * where line_octet_isr() costs too much, and need not call it at all while the receiver is deaf and no answer waits.
+ * When a chunk is complete the receiver is deaf.
+ * model: the next octet should be *model; PHY_MODEL_END: it may be any. The layer above sets it for the first chunk after
+ * T_SYN; a model is shorter than its chunk. If an octet is another one, less becomes 0 and the chunk `less` octets shorter:
+ * it ends with the head of the model, PHY_HEAD octets. If that is the first octet, it ends with the second one; if it is
+ * behind the head, at once, and left is then not 0: the layer above sets it. After a chunk model is PHY_MODEL_END.
  * Invariant: at[0..left-1] may be written. */
 struct phy_rx {
     uint8_t XDATA *at; /* next octet goes here                             */
@@ -80,8 +86,16 @@ struct phy_rx {
     uint8_t sum;       /* of all octets since it was last cleared, mod 256 */
     uint8_t waiting;   /* an answer waits for T_SDR: an octet cancels it   */
     uint8_t untimed;   /* the line cannot show silence (a pty)             */
+    const uint8_t IDATA *model;
+    uint8_t less;
 };
 extern HOT volatile struct phy_rx phy_rx;
+
+/* Models end at the end of phy_model, wherever they begin; written by the layer above while no chunk has one. */
+#define PHY_MODEL 9u
+#define PHY_HEAD  7u
+#define PHY_MODEL_END (phy_model + PHY_MODEL)
+extern IDATA uint8_t phy_model[PHY_MODEL];
 
 /* The answer: at[0..len-1], len 1..255. The layer above sets it beforehand, so that nothing is left to be done when
  * the request ends, and changes neither it nor the octets from phy_answer_isr() until phy_done_ind_isr(). */
@@ -95,7 +109,7 @@ extern HOT struct phy_tx phy_tx;
 void phy_answer_isr(void) IN_ISR;
 
 /* Implemented by the layer above (fdl_rx). */
-void phy_chunk_ind_isr(void) IN_ISR;           /* the octets asked for are there                              */
+void phy_chunk_ind_isr(void) IN_ISR;           /* the octets asked for are there, see struct phy_rx               */
 void phy_syn_ind_isr(void) IN_ISR;             /* T_SYN of silence: what comes next is the start of a telegram */
 void phy_fault_ind_isr(uint8_t err) IN_ISR;    /* octet with HAL_ERR_*; the receiver is deaf until T_SYN       */
 void phy_done_ind_isr(bool sent) IN_ISR;       /* the answer is out, or will not go out: the line was not silent. Does

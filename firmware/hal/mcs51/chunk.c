@@ -12,7 +12,7 @@
 
 #define SCON_MODE_3 0xC0u /* nine bits: the ninth is the parity, in TB8 and RB8 */
 
-/* The rest of bank 2: page of `in` (R1), A (R2), how many octets may come (R3), their sum (R4). */
+/* The rest of bank 2: where the model is (R1), A (R2), how many octets may come (R3), their sum (R4). */
 static volatile HOT uint8_t __at(0x16) bad_at; /* R6: bad: a bad octet came before what was kept from here on */
 
 static volatile __bit store; /* the third state */
@@ -21,15 +21,20 @@ static volatile __bit bad;
 static volatile __bit first; /* in store, and the next octet calls the service */
 static volatile __bit begun; /* that is why it has been called, and nothing else was */
 static volatile __bit rest;  /* nothing more to tell */
+static HOT uint8_t page;    /* of `in` */
 static HOT uint8_t err;     /* HAL_ERR_* of the bad octet */
-static HOT uint8_t stop;
+static IDATA uint8_t stop;
 
 #define KEPT 48
+
+#define MODEL_END (_phy_model + 9) /* PHY_MODEL_END */
+#define HEAD 7                     /* PHY_HEAD */
+STATIC_ASSERT(PHY_MODEL == 9 && PHY_HEAD == HEAD, what_assembly_cannot_read);
 static volatile PAGED uint8_t kept[KEPT];
 
 /* ---- high --------------------------------------------------------------------------------------------------- */
 
-/* 40 cycles for an octet of a chunk, 16 for a deaf one. P2 is the page of PAGED for everybody else. */
+/* 42 cycles for an octet of a chunk, 47 where it has a model, 16 for a deaf one. P2 is the page of PAGED for everybody else. */
 void serial_isr(void) __interrupt(4) __using(2) __naked
 {
     __asm
@@ -49,25 +54,29 @@ void serial_isr(void) __interrupt(4) __using(2) __naked
         mov _TH0,_reload_high
         clr _TF0
         setb _ET0
-        mov _P2,r1
+        mov _P2,_page
         movx @r0,a
         mov _P2,#0
         inc r0
         cjne r0,#0,00003$
-        inc r1
+        inc _page
     00003$:
+        cjne r1,#MODEL_END,00011$
+    00012$:
         add a,r4
         mov r4,a
         djnz r3,00004$
         jb _store,00006$
+    00013$:
         setb _full              ; what keep_isr() does, written out
         setb _store
         mov _phy_rx,r0
-        mov (_phy_rx + 1),r1
+        mov (_phy_rx + 1),_page
         mov (_phy_rx + 2),r3
         mov (_phy_rx + 3),r4
+        mov (_phy_rx + 6),#MODEL_END
         mov r0,#_kept
-        mov r1,#0
+        mov _page,#0
         mov r3,#KEPT
         setb _IE1
     00004$:
@@ -107,11 +116,42 @@ void serial_isr(void) __interrupt(4) __using(2) __naked
         mov r3,#(KEPT - 1)
         setb _begun
         setb _IE1
-        sjmp 00004$
+        mov a,r2
+        pop psw
+        reti
+    00011$:
+        xrl a,@r1
+        jnz 00014$
+        mov a,@r1
+        inc r1
+        sjmp 00012$
+    00014$:                     ; not as the model is
+        xrl a,@r1
+        add a,r4
+        mov r4,a
+        mov r1,#MODEL_END
+        mov a,r3
+        clr c
+        subb a,(_phy_rx + 7)
+        mov (_phy_rx + 7),#0
+        jc 00015$
+        jz 00015$
+        cjne a,#HEAD,00016$
+        mov a,#2                ; the first octet
+    00016$:
+        mov r3,a
+        djnz r3,00017$
+        ljmp 00013$
+    00017$:
+        ljmp 00004$
+    00015$:
+        dec r3                  ; the chunk is over
+        ljmp 00013$
     __endasm;
 }
 
-/* The third state begins. Called in bank 2, leaves A alone. Layout of struct phy_rx: at, left, sum. */
+/* The third state begins. Called in bank 2, leaves A alone. Layout of struct phy_rx: at, left, sum;
+ * octets 6 and 7: model, less. */
 void keep_isr(void) __naked
 {
     __asm
@@ -119,12 +159,13 @@ void keep_isr(void) __naked
         setb _store
         jnb _hear,00001$
         mov _phy_rx,r0
-        mov (_phy_rx + 1),r1
+        mov (_phy_rx + 1),_page
         mov (_phy_rx + 2),r3
         mov (_phy_rx + 3),r4
     00001$:
         mov r0,#_kept
-        mov r1,#0
+        mov _page,#0
+        mov r1,#MODEL_END
         mov r3,#KEPT
     00002$:
         ret
@@ -180,14 +221,17 @@ static void open_isr(void) IN_ISR __naked
         jz 00004$
         jb _burst,00001$
         mov _in,_phy_rx
-        mov (_in + 1),(_phy_rx + 1)
+        mov _page,(_phy_rx + 1)
+        mov (_in + 1),(_phy_rx + 6)
         mov (_in + 3),a
         mov (_in + 4),(_phy_rx + 3)
         sjmp 00002$
     00001$:
         mov _in,#_kept
-        mov (_in + 1),#0
+        mov _page,#0
+        mov (_in + 1),#MODEL_END
         mov (_in + 3),#1
+        mov (_in + 4),#0
         setb _first
         setb _store
     00002$:
@@ -198,8 +242,9 @@ static void open_isr(void) IN_ISR __naked
     __endasm;
 }
 
-/* In the order in which it has come: the chunk, octets kept, a bad one or a silence. */
-static void tell_isr(void) IN_ISR
+/* In the order in which it has come: the chunk, octets kept, a bad one or a silence. -> Only octets of a chunk are left to
+ * tell: the service is quicker at that. */
+static bool tell_isr(void) IN_ISR
 {
     volatile PAGED uint8_t *next;
 
@@ -213,6 +258,12 @@ static void tell_isr(void) IN_ISR
     if (bad && bad_at <= stop)
         stop = bad_at;
     if (taken != stop) {
+        if (!phy_rx.waiting && !phy_rx.left) {
+            taken = stop; /* deaf */
+            return false;
+        }
+        if (!phy_rx.waiting && !bad && !due)
+            return true;
         next = (volatile PAGED uint8_t *)taken;
         taken++;
         line_octet_isr(*next, 0);
@@ -225,16 +276,21 @@ static void tell_isr(void) IN_ISR
             line_octet_isr(0, 0); /* somebody else was faster */
         if (reload_low | reload_high)
             line_silence_isr();
+        if (sending)
+            sent_isr(); /* before the first octet is out */
     }
+    return false;
 }
 
-void serve_isr(void) IN_ISR
+/* -> As tell_isr(). */
+bool serve_isr(void) IN_ISR
 {
     do {
         IE1 = 0;
         rest = 0;
         while (store && !sending) {
-            tell_isr();
+            if (tell_isr())
+                return true;
             if (sending)
                 break;
             open_isr();
@@ -244,6 +300,7 @@ void serve_isr(void) IN_ISR
         if (sending)
             sent_isr();
     } while (IE1);
+    return false;
 }
 
 /* The usual case without C: a chunk is complete; its upcall asks for the next one; what has been kept meanwhile is
@@ -259,93 +316,51 @@ void service_isr(void) __interrupt(2) __using(1) __naked
         push dph
         push psw
         mov psw,#0x08
-        jnb _begun,00022$
-        clr _begun
-        ljmp 00017$
-    00022$:
-        jnb _full,00016$
+        jbc _begun,00017$
+        sjmp 00022$
+    00020$:
         setb _ES
-        clr _full
-    00001$:
-        lcall _phy_chunk_ind_isr
+        mov a,r7
+        ljmp 00018$
+    00017$:                     ; the first octet after rest: of a burst, unless an answer waits
         mov a,(_phy_rx + 2)
-        jz 00011$               ; deaf, or an answer waits
-    00018$:
+        jz 00022$
         mov r7,a
+        mov r0,#(_kept + 1)
+        mov a,_in
+        cjne a,#(_kept + 1),00041$ ; and more already
         mov dpl,_phy_rx
         mov dph,(_phy_rx + 1)
         mov r6,(_phy_rx + 3)
-        mov r0,_taken
-    00002$:
-        jnb _IE1,00030$         ; a silence or a bad octet: not past it
-        jb _bad,00010$
-        jnb _due,00010$
-        mov a,r0
-        cjne a,_mark,00003$
-        sjmp 00010$
-    00030$:
-        mov a,r0
-        cjne a,_in,00003$
-        jb _burst,00004$
-        clr _EA
-        cjne a,_in,00015$
-        jb _IE1,00015$
-        mov _in,dpl
-        mov (_in + 1),dph
-        mov (_in + 3),r7
-        mov (_in + 4),r6
-        mov _taken,#_kept
-        clr _store
-        setb _EA
-        sjmp 00013$
-    00015$:
-        setb _EA
-        sjmp 00002$
-    00003$:                     ; what has been kept
-        movx a,@r0
-        inc r0
+        mov r1,(_phy_rx + 6)
+        mov a,(_in + 4)         ; their sum is that octet
         movx @dptr,a
         inc dptr
+        cjne r1,#MODEL_END,00027$
+        sjmp 00029$
+    00041$:
+        dec r0
+        sjmp 00020$
+    00022$:
+        jb _full,00031$
+        ljmp 00016$
+    00027$:
+        xrl a,@r1
+        jnz 00038$
+        mov a,@r1
+        inc r1
+    00029$:
         add a,r6
         mov r6,a
-        djnz r7,00002$
-    00010$:
+        djnz r7,00005$
+        ljmp 00010$
+    00038$:
         setb _ES
-        mov _phy_rx,dpl
-        mov (_phy_rx + 1),dph
-        mov (_phy_rx + 2),r7
-        mov (_phy_rx + 3),r6
-        mov _taken,r0
-        cjne r7,#0,00012$
-        sjmp 00001$
-    00011$:
-        jnb _due,00012$         ; the answer has not to wait any more
-        mov a,_taken
-        cjne a,_in,00012$
-        clr _due
-        lcall _line_silence_isr
-        jnb _sending,00012$
-        lcall _sent_isr         ; before the first octet is out
-        sjmp 00012$
-    00016$:
-        jb _sending,00012$
-        setb _ES
-    00012$:
-        lcall _serve_isr
-    00013$:
-        pop psw
-        pop dph
-        pop dpl
-        pop b
-        pop acc
-        reti
-    00004$:                     ; straight from the receiver
-        clr _ES
-        cjne a,_in,00009$
+        ljmp 00026$
     00005$:
         jb _RI,00006$
         jnb _IE1,00005$
-        sjmp 00009$
+        ljmp 00009$
     00006$:
         mov a,_SBUF
         jb _P,00007$
@@ -360,13 +375,11 @@ void service_isr(void) __interrupt(2) __using(1) __naked
         clr _TF0
         movx @dptr,a
         inc dptr
+        cjne r1,#MODEL_END,00027$
         add a,r6
         mov r6,a
         djnz r7,00005$
         ljmp 00010$
-    00009$:
-        setb _ES
-        ljmp 00002$
     00014$:
         clr _RI
         mov _err,#1             ; HAL_ERR_PARITY
@@ -374,31 +387,134 @@ void service_isr(void) __interrupt(2) __using(1) __naked
         clr _hear
         setb _bad
         setb _IE1
-        sjmp 00009$
-    00017$:                     ; the first octet after rest: of a burst, unless an answer waits
+        ljmp 00009$
+    00031$:
+        setb _ES
+        clr _full
+    00001$:
+        lcall _phy_chunk_ind_isr
         mov a,(_phy_rx + 2)
-        jz 00023$
+        jz 00011$               ; deaf, or an answer waits
+    00018$:
         mov r7,a
-        mov r0,_taken
-        mov a,r0
-        inc a
-        cjne a,_in,00020$       ; and more already
         mov dpl,_phy_rx
         mov dph,(_phy_rx + 1)
+        mov r6,(_phy_rx + 3)
+        mov r1,(_phy_rx + 6)
+        mov r0,_taken
+    00002$:
+        jnb _IE1,00030$         ; a silence or a bad octet: not past it
+        jb _bad,00010$
+        jnb _due,00010$
+        mov a,r0
+        cjne a,_mark,00003$
+        sjmp 00010$
+    00030$:
+        mov a,r0
+        cjne a,_in,00003$
+        jb _burst,00034$
+        clr _EA
+        cjne a,_in,00015$
+        jb _IE1,00015$
+        mov _in,dpl
+        mov _page,dph
+        mov (_in + 1),r1
+        mov (_in + 3),r7
+        mov (_in + 4),r6
+        mov _taken,#_kept
+        clr _store
+        setb _EA
+        sjmp 00013$
+    00015$:
+        setb _EA
+        sjmp 00002$
+    00003$:                     ; what has been kept
         movx a,@r0
         inc r0
         movx @dptr,a
         inc dptr
-        add a,(_phy_rx + 3)
+        cjne r1,#MODEL_END,00025$
+    00024$:
+        add a,r6
         mov r6,a
-        djnz r7,00005$
-        ljmp 00010$
-    00020$:
+        djnz r7,00002$
+    00010$:
+        clr c
+    00028$:
         setb _ES
-        mov a,r7
+        mov _phy_rx,dpl
+        mov (_phy_rx + 1),dph
+        mov (_phy_rx + 2),r7
+        mov (_phy_rx + 3),r6
+        mov (_phy_rx + 6),r1
+        mov _taken,r0
+        jc 00001$
+        cjne r7,#0,00012$
+        sjmp 00001$
+    00025$:
+        xrl a,@r1
+        jnz 00035$
+        mov a,@r1
+        inc r1
+        sjmp 00024$
+    00035$:
+        ljmp 00026$
+    00034$:
+        ljmp 00004$
+    00011$:
+        jnb _due,00012$         ; the answer has not to wait any more
+        mov a,_taken
+        cjne a,_in,00012$
+        clr _due
+        lcall _line_silence_isr
+        jnb _sending,00012$
+        lcall _sent_isr         ; before the first octet is out
+        sjmp 00012$
+    00016$:
+        jb _sending,00012$
+        setb _ES
+    00012$:
+        lcall _serve_isr
+        mov a,dpl
+        jnz 00039$
+    00013$:
+        pop psw
+        pop dph
+        pop dpl
+        pop b
+        pop acc
+        reti
+    00039$:
+        mov a,(_phy_rx + 2)
         ljmp 00018$
-    00023$:
-        ljmp 00016$
+    00004$:                     ; straight from the receiver
+        clr _ES
+        cjne a,_in,00009$
+        ljmp 00005$
+    00009$:
+        setb _ES
+        ljmp 00002$
+    00026$:                     ; not as the model is
+        xrl a,@r1
+        add a,r6
+        mov r6,a
+        mov r1,#MODEL_END
+        mov a,r7
+        clr c
+        subb a,(_phy_rx + 7)
+        mov (_phy_rx + 7),#0
+        jc 00032$
+        jz 00032$
+        cjne a,#HEAD,00033$
+        mov a,#2                ; the first octet
+    00033$:
+        mov r7,a
+        djnz r7,00009$
+        ljmp 00010$
+    00032$:
+        dec r7                  ; the chunk is over
+        setb c
+        ljmp 00028$
     __endasm;
 }
 
