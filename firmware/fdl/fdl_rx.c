@@ -247,15 +247,20 @@ static uint8_t st_another_isr(void) IN_ISR
 }
 
 /* Main has changed what the plan of the telegram awaited was made from: it is made now. */
-static void plan_late_isr(void) IN_ISR
+static uint8_t plan_late_isr(void) IN_ISR
 {
     const uint8_t sum = phy_rx.sum;
+    uint8_t next;
 
     fdl_plan.stage = FDL_OTHERS;
-    if (st_header_isr() == RX_SAPS)
+    next = st_header_isr();
+    if (next == RX_SYN)
+        return RX_SYN;
+    if (next == RX_SAPS)
         fdl_saps_isr();
     phy_rx.sum = sum;
     phy_rx.left = 0;
+    return st_body_isr();
 }
 
 /* The telegram awaited, or another one. */
@@ -265,11 +270,12 @@ static void st_awaited_isr(void) IN_ISR
         state = st_another_isr();
         return;
     }
-    if (fdl_plan.stage == FDL_AWAITED)
+    if (fdl_plan.stage == FDL_AWAITED) {
         fdl_plan.stage = FDL_PLANNED;
-    else
-        plan_late_isr();
-    state = st_body_isr();
+        state = st_body_isr();
+    } else {
+        state = plan_late_isr();
+    }
     good_sd = true;
 }
 
