@@ -22,6 +22,8 @@ void fdl_data_ind(const struct fdl_ind XDATA *what)
 uint8_t fdl_ask_isr(void) IN_ISR
 {
     isr.asked++;
+    if (isr.reply)
+        fdl_req.reply = isr.reply;
     return isr.result;
 }
 
@@ -44,6 +46,7 @@ void unit_begin(void)
     isr.result = FDL_OK;
     isr.keep = false;
     isr.kept = 0;
+    isr.reply = 0;
     fdl_reply_init(&reply_10, rooms_10[0], 16, 10);
     fdl_reply_init(&reply_nil, rooms_nil[0], 246, FDL_SAP_NIL);
 }

@@ -18,6 +18,7 @@ struct unit_isr {
     uint8_t asked;
     uint8_t count;
     uint8_t result;
+    struct fdl_reply PAGED *reply; /* answers in the place of the SAP's, 0: none does */
     bool keep;           /* keeps each L_sdu */
     uint8_t XDATA *kept; /* the buffer of the last one */
     uint8_t XDATA *lsdu;

@@ -233,6 +233,87 @@ static void what_was_heard_is_known_before_the_answer_is_out(void)
     finish_request();
 }
 
+/* The header but for the FCB is that of the last request, its SAPs come by themselves. 88 + 82 + 5D + 0A + 3E + 02 = B1. */
+static void the_owner_set_between_a_known_header_and_its_saps_leaves_the_data_whole(void)
+{
+    unit_srd_sap(FDL_TO_MAIN);
+    request("68 06 06 68 88 82 5D 0A 3E 01 B0 16");
+    begin("68 06 06 68 88 82 5D");
+    fdl_watch(2);
+    end("0A 3E 02 B1 16");
+    ANSWERED("E5");
+    fdl_poll();
+    TEST_ASSERT_EQUAL(2, ind.count);
+    TEST_ASSERT_EQUAL(1, ind.last.len);
+    TEST_ASSERT_EQUAL_HEX8(0x02, ind.last.lsdu[0]);
+}
+
+/* Asked from SSAP 62: 246 octets do not fit beside it, a UE is planned; then there is only one. 08 + 82 + 5D + 3E + 01 = 26;
+ * 82 + 08 + 08 + 3E + 22 = F2. */
+static void data_that_fit_come_instead_of_those_that_did_not_until_the_end_of_the_request(void)
+{
+    static uint8_t XDATA lsdu[246];
+
+    fdl_reply_update(FDL_SAP_NIL, lsdu, 246, FDL_UPDATE_LOW);
+    request("68 05 05 68 08 82 6D 3E 01 36 16");
+    ANSWERED("10 02 08 01 0B 16");
+    begin("68 05 05 68");
+    unit_update(FDL_SAP_NIL, "22", FDL_UPDATE_LOW);
+    end("08 82 5D 3E 01 26 16");
+    ANSWERED("68 05 05 68 82 08 08 3E 22 F2 16");
+}
+
+static void a_new_address_before_the_telegram_awaited_leaves_it_to_the_old_one(void)
+{
+    request("68 04 04 68 08 02 4D 01 58 16");
+    ANSWERED(ANSWER_11);
+    begin("");
+    fdl_set_address(9);
+    end("68 04 04 68 08 02 4D 01 58 16");
+    NOT_ANSWERED();
+    COUNTED(1, requests);
+    COUNTED(1, foreign);
+    request("68 04 04 68 09 02 4D 01 59 16");
+    ANSWERED("68 04 04 68 02 09 08 11 24 16");
+}
+
+static void nor_where_the_station_leaves_telegrams_of_others_at_their_address(void)
+{
+    fdl_listen(false);
+    a_new_address_before_the_telegram_awaited_leaves_it_to_the_old_one();
+}
+
+/* What the plan of a header is kept for the next one like it for: the reply has been addressed for it. Here one reply
+ * answers two SAPs, the boxes are full of requests to SAP 10 and the default SAP refuses RR. */
+static void a_reply_that_could_not_be_given_is_addressed_when_it_can(void)
+{
+    unit_srd_sap(FDL_TO_MAIN);
+    fma_sap_deactivate(FDL_SAP_NIL);
+    TEST_ASSERT_EQUAL(FMA_OK, fma_rsap_activate(FDL_SAP_NIL, FDL_ALL, 16, FDL_TO_MAIN, &reply_10));
+    unit_update(FDL_SAP_NIL, "11", FDL_UPDATE_LOW);
+    box_request("01", "A0");
+    box_request("02", "A1");
+    box_request("03", "A2");
+    request("68 04 04 68 08 02 4D 01 58 16");
+    ANSWERED("10 02 08 02 0C 16");
+    fdl_poll();
+    request("68 04 04 68 08 02 4D 01 58 16");
+    ANSWERED(ANSWER_11);
+}
+
+/* From SSAP 62: 08 + 82 + 4D + 3E + 01 = 16; 82 + 08 + 08 + 3E + 11 = E1. */
+static void nor_is_it_while_another_one_answers_in_its_place(void)
+{
+    unit_srd_sap(FDL_ANSWER_ONLY);
+    unit_update(10, "22", FDL_UPDATE_LOW);
+    isr.reply = &reply_10;
+    request("68 05 05 68 08 82 4D 3E 01 16 16");
+    ANSWERED("68 05 05 68 82 08 08 3E 22 F2 16");
+    isr.reply = 0;
+    request("68 05 05 68 08 82 4D 3E 01 16 16");
+    ANSWERED("68 05 05 68 82 08 08 3E 11 E1 16");
+}
+
 int main(void)
 {
     UNITY_BEGIN();
@@ -253,5 +334,11 @@ int main(void)
     RUN_TEST(boxes_full_when_the_request_began_take_it_if_one_is_free_at_its_end);
     RUN_TEST(the_owner_set_between_two_like_requests_counts_for_the_second);
     RUN_TEST(what_was_heard_is_known_before_the_answer_is_out);
+    RUN_TEST(the_owner_set_between_a_known_header_and_its_saps_leaves_the_data_whole);
+    RUN_TEST(data_that_fit_come_instead_of_those_that_did_not_until_the_end_of_the_request);
+    RUN_TEST(a_new_address_before_the_telegram_awaited_leaves_it_to_the_old_one);
+    RUN_TEST(nor_where_the_station_leaves_telegrams_of_others_at_their_address);
+    RUN_TEST(a_reply_that_could_not_be_given_is_addressed_when_it_can);
+    RUN_TEST(nor_is_it_while_another_one_answers_in_its_place);
     return UNITY_END();
 }

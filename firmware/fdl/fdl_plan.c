@@ -101,6 +101,7 @@ static void reply_isr(void) IN_ISR
 {
     struct fdl_reply PAGED *reply = fdl_req.reply;
 
+    fdl_plan.refusal = FDL_OK;
     fdl_plan.late = false;
     fdl_plan.is = reply->is;
     if (fdl_plan.is & FDL_HOLD)
@@ -197,41 +198,6 @@ static void plan_isr(void) IN_ISR
     else
         fdl_plan.result = decide_isr();
     answer_isr();
-}
-
-/* ---- main changes something ------------------------------------------------------------------------------ */
-
-void fdl_unplan_isr(void) IN_ISR
-{
-    fdl_plan.made = 0;
-    fdl_plan.same = false; /* nor is it when only the SAPs are still to come */
-    if (fdl_plan.stage == FDL_AWAITED)
-        fdl_plan.stage = FDL_IDLE;
-}
-
-void fdl_resettle_isr(void) IN_ISR
-{
-    const uint8_t stage = fdl_plan.stage;
-
-    if (stage == FDL_PLANNED || stage == FDL_AWAITED)
-        answer_isr();
-    else
-        fdl_plan.awaited = 0;
-    fdl_plan.stage = stage;
-}
-
-void fdl_replan_isr(struct fdl_reply PAGED *reply) IN_ISR
-{
-    if (!reply) {
-        fdl_unplan_isr();
-        if (fdl_plan.stage == FDL_PLANNED)
-            plan_isr();
-        return;
-    }
-    if (fdl_plan.stage != FDL_PLANNED && fdl_plan.stage != FDL_AWAITED)
-        fdl_plan.awaited = 0;
-    else if (reply == fdl_req.reply && !fdl_plan.refusal)
-        reply_isr();
 }
 
 /* ---- telegram -------------------------------------------------------------------------------------------- */
@@ -389,4 +355,41 @@ bool fdl_await_isr(void) IN_ISR
     }
     fdl_plan.stage = FDL_AWAITED;
     return true;
+}
+
+/* ---- main changes something ------------------------------------------------------------------------------ */
+
+void fdl_unplan_isr(void) IN_ISR
+{
+    fdl_plan.made = 0;
+    fdl_plan.same = false; /* nor is it when only the SAPs are still to come: they are read into a new fdl_req */
+    if (fdl_plan.stage == FDL_UNKNOWN)
+        read_header_isr();
+    if (fdl_plan.stage == FDL_AWAITED)
+        fdl_plan.stage = FDL_IDLE;
+}
+
+void fdl_resettle_isr(void) IN_ISR
+{
+    const uint8_t stage = fdl_plan.stage;
+
+    if (stage == FDL_PLANNED || stage == FDL_AWAITED)
+        answer_isr();
+    else
+        fdl_plan.awaited = 0;
+    fdl_plan.stage = stage;
+}
+
+void fdl_replan_isr(struct fdl_reply PAGED *reply) IN_ISR
+{
+    if (!reply) {
+        fdl_unplan_isr();
+        if (fdl_plan.stage == FDL_PLANNED)
+            plan_isr();
+        return;
+    }
+    if (fdl_plan.stage != FDL_PLANNED && fdl_plan.stage != FDL_AWAITED)
+        fdl_plan.awaited = 0;
+    else if (reply == fdl_req.reply)
+        reply_isr();
 }
