@@ -296,6 +296,15 @@ def min_t_sdr(bench):
                 raise AssertionError(f"an answer after {turn:.1f} T_bit, min_T_SDR is {t_bit}")
 
 
+@case("T36 somebody who talks when min_T_SDR of 60 T_bit ends is not answered without T_SYN")
+def faster(bench):
+    """What was silent is T_SDR: FDL status is answered, or not, but never the Slave_Diag so soon behind it."""
+    bench.ask("68 0C 0C 68 88 82 6D 3D 3E 80 01 01 3C 12 34 01 F7 16", "E5")
+    for t_bit in range(50, 64, 2):
+        answer = bench.board.ask(f"{STATUS} _{t_bit} {GET_DIAG}")
+        expect(f"{t_bit} T_bit: the first one's answer or none", answer in ("", STATUS_OK), True)
+
+
 # ---- any phase of the main loop --------------------------------------------------------------------------------------
 
 def phases(bench, step):

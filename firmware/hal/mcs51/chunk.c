@@ -273,8 +273,8 @@ static bool tell_isr(void) IN_ISR
     } else if (due) {
         due = 0;
         if (phy_rx.waiting && in != stop)
-            line_octet_isr(0, 0); /* somebody else was faster */
-        if (reload_low | reload_high)
+            line_octet_isr(0, 0); /* somebody else was faster: it was T_SDR that is over, not T_SYN */
+        else if (reload_low | reload_high)
             line_silence_isr();
         if (sending)
             sent_isr(); /* before the first octet is out */
