@@ -309,7 +309,7 @@ bool serve_isr(void) IN_ISR
 void service_isr(void) __interrupt(2) __using(1) __naked
 {
     __asm
-        clr _ES                 ; of a burst's first octet to the second one's ninth bit: 47 cycles
+        clr _ES                 ; the second octet of a burst waits from here on (timing.txt: wait)
         push acc
         push b
         push dpl
@@ -328,7 +328,7 @@ void service_isr(void) __interrupt(2) __using(1) __naked
         mov r7,a
         mov r0,#(_kept + 1)
         mov a,_in
-        cjne a,#(_kept + 1),00041$ ; and more already
+        cjne a,#(_kept + 1),00020$ ; and more already
         mov dpl,_phy_rx
         mov dph,(_phy_rx + 1)
         mov r6,(_phy_rx + 3)
@@ -338,9 +338,6 @@ void service_isr(void) __interrupt(2) __using(1) __naked
         inc dptr
         cjne r1,#MODEL_END,00027$
         sjmp 00029$
-    00041$:
-        dec r0
-        sjmp 00020$
     00022$:
         jb _full,00031$
         ljmp 00016$
