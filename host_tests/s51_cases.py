@@ -12,7 +12,7 @@ from chip import DRIVER, SBUF
 from station import expect
 
 CASES, LONG = [], []
-LATE_MS = 13  # of the watchdog: its clock's millisecond, the turn that took the last request, the turn that clears up
+LATE_MS = 14  # of the watchdog: its clock's millisecond, the turn that took the last request, the turn that clears up
 
 
 def case(name, *arguments, into=CASES):
