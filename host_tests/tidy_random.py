@@ -16,16 +16,24 @@ sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "firmware" / "ha
 from asm import Program, cell  # noqa: E402
 from whole import tidy  # noqa: E402
 
-DIRECT = {name: 0x30 + 2 * n for n, name in enumerate(("_g", "_h", "_p", "_n", "_v", "_f_sloc0_1_0", "_c_sloc0_1_0"))}
-EXTERNAL = {name: 0x0104 + 0x7E * n for n, name in enumerate(("_x", "_y", "_w", "_f_s_65536_1", "_f_t_65536_2", "_c_s_65536_1"))}
+DIRECT = {name: 0x30 + 2 * n for n, name in enumerate(("_g", "_h", "_p", "_n", "_v", "_f_sloc0_1_0", "_c_sloc0_1_0", "_e_sloc0_1_0", "_t_sloc0_1_0", "_k"))}
+EXTERNAL = {name: 0x0104 + 0x7E * n for n, name in enumerate(
+    ("_x", "_y", "_w", "_f_s_65536_1", "_f_t_65536_2", "_c_s_65536_1", "_e_s_65536_1", "_t_s_65536_1"))}
 PAGED = {"_q": 0x20, "_u": 0x28}
 INDIRECT = {"_i": 0x90, "_j": 0x98}
 BITS = ("_bit", "_f_sloc1_1_0")
 WATCHED = ("_v", "_w", "_PORT")  # volatile, or a port
 ADDRESSES = {**DIRECT, **EXTERNAL, **PAGED, **INDIRECT, "_PORT": 0x180}
-HEAD = ("\t.globl _f\n_PORT\t=\t0x0090\n" + "".join(
-    f"\t.area {area}\n" + "".join(f"{name}:\n" for name in names) for area, names in (
-        ("DSEG", DIRECT), ("XSEG", EXTERNAL), ("PSEG", PAGED), ("ISEG", INDIRECT), ("BSEG", BITS))) + "\t.area CSEG\n")
+ELSEWHERE = ("_e_sloc0_1_0", "_k", "_e_s_65536_1", "_c_sloc0_1_0", "_c_s_65536_1")  # of the second file, known there alone
+
+
+def head(here):
+    """What a file begins with. here: is a variable its own?"""
+    areas = (("DSEG", DIRECT), ("XSEG", EXTERNAL), ("PSEG", PAGED), ("ISEG", INDIRECT), ("BSEG", BITS))
+    every = [name for _, names in areas for name in names]
+    shown = [name for name in every if name != "_k" and "sloc" not in name and "65536" not in name]
+    return "".join(f"\t.globl {name}\n" for name in shown + ["_f", "_c", "_d", "_e"]) + "_PORT\t=\t0x0090\n" + "".join(
+        f"\t.area {area}\n" + "".join(f"{name}:\n" for name in names if here(name)) for area, names in areas) + "\t.area CSEG\n"
 
 
 class Chip:
@@ -173,7 +181,7 @@ class Writer:
     """Random code in SDCC's manner: pieces that leave the stack as it was, branches forward, one loop."""
 
     def __init__(self, dice, name):
-        self.dice, self.name, self.labels, self.open = dice, name, 100, []
+        self.dice, self.name, self.labels, self.open, self.once = dice, name, 100, [], False
         self.own = [n for n in EXTERNAL if n.startswith(name + "_")]
 
     def pick(self, *choices):
@@ -183,7 +191,8 @@ class Writer:
         return f"r{self.dice.randrange(8)}"
 
     def variable(self):
-        name = self.pick("_g", "_h", "_p", "_v", "_PORT", "_g", "_h", "_p", self.name + "_sloc0_1_0")
+        name = self.pick("_g", "_h", "_p", "_v", "_PORT", "_g", "_h", "_p", self.name + "_sloc0_1_0",
+                         *["_k"] * (self.name == "_e"))
         return self.pick(name, f"({name} + 1)") if name not in ("_v", "_PORT") else name
 
     def place(self):
@@ -195,7 +204,7 @@ class Writer:
 
     def piece(self):
         d, r, v, place = self.dice, self.register(), self.variable(), self.place()
-        kind = d.randrange(23)
+        kind = d.randrange(26)
         if kind < 3:
             return [f"mov a,{self.pick(r, v, '#0x05', 'dpl')}"]
         if kind < 6:
@@ -229,10 +238,14 @@ class Writer:
                     f"mov {at},a", self.pick(f"movx a,@{at}", f"movx @{at},a")]
         if kind == 15:
             return [f"mov {r},{v}", f"{self.pick('anl', 'orl')} a{r},{self.pick('#0x0f', 'a')}", f"mov a,{r}"]
-        if kind == 16 and self.name == "_f":
+        if kind in (16, 24) and self.name == "_f":
             saved = [f"r{n}" for n in range(8) if d.random() < .4]
-            return [f"mov dpl,{r}"] + [f"push a{n}" for n in saved] + ["lcall _c"] + [f"pop a{n}" for n in reversed(saved)] + \
-                self.pick([f"mov {r},dpl"], [])
+            return [f"mov dpl,{r}"] + [f"push a{n}" for n in saved] + [f"lcall {self.callee(kind)}"] + \
+                [f"pop a{n}" for n in reversed(saved)] + self.pick([f"mov {r},dpl"], [])
+        if kind in (23, 25) and self.name != "_t":  # back from the middle, or on into another function
+            self.labels += 1
+            there = "_t" if self.name == "_f" else "_d"
+            return [f"{self.pick('jz', 'jnc')} {self.labels:05d}$", self.pick("ret", f"ljmp {there}"), f"{self.labels:05d}$:"]
         if kind == 17:
             bit = self.pick("_bit", "_f_sloc1_1_0") if self.name == "_f" else "_bit"
             return [self.pick(f"mov c,{bit}", f"mov {bit},c", f"setb {bit}", f"clr {bit}")]
@@ -251,6 +264,12 @@ class Writer:
             return [label + ":"]
         return []
 
+    def callee(self, kind):
+        """_e is called once."""
+        name = "_e" if kind == 24 and not self.once else "_c"
+        self.once = self.once or name == "_e"
+        return name
+
     def code(self, pieces):
         code = [line for _ in range(pieces) for line in self.piece()] + [label + ":" for label in self.open]
         self.open = []
@@ -260,13 +279,18 @@ class Writer:
         return code + self.pick(["ret"], ["mov dpl,a", "ret"], ["lcall _d", "ret"])
 
 
-def text(dice):
-    code = HEAD
-    for name, pieces in (("_f", dice.randrange(5, 30)), ("_c", dice.randrange(1, 9))):
-        code += f"{name}:\n\tar0 = 0x00\n" + "".join(
-            line + "\n" if line.endswith(":") else f"\t{line}\n" for line in Writer(dice, name).code(pieces))
-    return code + "_d:\n\tmov\t_h,r3\n\tmov\tdpl,#0x07\n\tret\n_main:\n\tmov\tdpl,_g\n\tlcall\t_f\n" \
-                  "\tmov\t_g,dpl\n\tret\n"
+def functions(dice, *names):
+    return "".join(f"{name}:\n\tar0 = 0x00\n" + "".join(
+        line + "\n" if line.endswith(":") else f"\t{line}\n" for line in Writer(dice, name).code(dice.randrange(*sizes)))
+        for name, sizes in names)
+
+
+def texts(dice):
+    """-> of the files"""
+    return (head(lambda name: name not in ELSEWHERE) + functions(dice, ("_f", (5, 30)), ("_t", (1, 6))) +
+            "_main:\n\tmov\tdpl,_g\n\tlcall\t_f\n\tmov\t_g,dpl\n\tret\n",
+            head(lambda name: name in ELSEWHERE) + functions(dice, ("_c", (1, 9)), ("_e", (3, 9))) +
+            "_d:\n\tmov\t_h,r3\n\tmov\tdpl,#0x07\n\tret\n")
 
 
 def observe(program, seed):
@@ -282,28 +306,30 @@ def observe(program, seed):
 
 def run(number, folder):
     dice = random.Random(number)
-    file = Path(folder) / "x.asm"
-    file.write_text(text(dice))
-    volatile = {str(file): {"v", "w"}}
-    before, after = Program([str(file)], volatile), Program([str(file)], volatile)
+    files = [str(Path(folder) / f"{name}.asm") for name in "xy"]
+    for file, text in zip(files, texts(dice)):
+        Path(file).write_text(text)
+    before, after = (Program(files, dict.fromkeys(files, {"v", "w"})) for _ in range(2))
     tidy(after)
-    octets = [len([line for f in program.functions for line in f.code if line.op]) for program in (before, after)]
+    after.write()
+    figures = [sum(1 for f in program.functions for line in f.code if line.op) for program in (before, after)]
+    figures.append(len(before.functions) - len(after.functions))
     for seed in range(4):
         if observe(before, seed) != observe(after, seed):
-            return octets, f"program {number}, start {seed}"
-    return octets, None
+            return figures, f"program {number}, start {seed}"
+    return figures, None
 
 
 def main(arguments):
     programs = int(arguments[0]) if arguments else 400 if os.environ.get("TEST_FULL") else 50
     first = int(arguments[1]) if arguments[1:] else 1
-    wrong, total = [], [0, 0]
+    wrong, total = [], [0, 0, 0]
     with tempfile.TemporaryDirectory() as folder:
         for number in range(first, first + programs):
-            octets, problem = run(number, folder)
-            total = [a + b for a, b in zip(total, octets)]
+            figures, problem = run(number, folder)
+            total = [a + b for a, b in zip(total, figures)]
             wrong += [problem] * bool(problem)
-    print(f"{programs} programs of {total[0]} instructions, {total[1]} after tidy; "
+    print(f"{programs} programs of {total[0]} instructions, {total[1]} after tidy, {total[2]} functions where they were called; "
           f"every one does the same:{'FAIL: ' + ', '.join(wrong[:9]) if wrong else 'PASS'}")
     print(f"-----------------------\n1 Tests {int(bool(wrong))} Failures 0 Ignored")
     return 1 if wrong else 0

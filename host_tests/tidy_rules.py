@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """firmware/hal/mcs51/tidy does what its rules say, and nothing else: assembly in, assembly out, worked out by hand.
 
-Instructions stand between slashes. `f` is the function looked at; behind `|` stand others, each a name, a colon and its code.
+Instructions stand between slashes. `f` is the function looked at; behind `|` stand others, each a name, a colon and its code,
+behind `||` those of another file.
 """
 import sys
 import tempfile
@@ -173,6 +174,16 @@ CASES = {
                                "jnz 00102$ / mov _g,#1 / 00102$: / mov _h,#1 / ret"),
     "a branch that takes the bit along is not turned round": (
         "jbc _bit,00101$ / sjmp 00102$ / 00101$: / mov _g,#1 / 00102$: / mov _h,#1 / ret", SAME),
+    # ---- branches ----
+    "a branch that has become too long": (
+        "mov a,_g / jz 00101$ / " + "inc _p / " * 70 + "00101$: / ret",
+        "mov a,_g / jnz 00102$ / ljmp 00101$ / 00102$: / " + "inc _p / " * 70 + "00101$: / ret"),
+    "one that has no opposite": (
+        "mov a,_g / cjne a,#0x01,00101$ / " + "inc _p / " * 70 + "00101$: / mov _h,#1 / ret",
+        "mov a,_g / cjne a,#0x01,00103$ / sjmp 00102$ / 00103$: / ljmp 00101$ / 00102$: / " + "inc _p / " * 70 + "00101$: / mov _h,#1 / ret"),
+    "one with a place for a jump nearby": (
+        "mov a,_g / cjne a,_h,00101$ / jnz 00102$ / ret / 00102$: / " + "inc _p / " * 70 + "00101$: / mov _h,#1 / ret",
+        "mov a,_g / cjne a,_h,00104$ / jnz 00102$ / ret / 00104$: / ljmp 00101$ / 00102$: / " + "inc _p / " * 70 + "00101$: / mov _h,#1 / ret"),
     "what no way leads to": ("ljmp _elsewhere / mov _g,#1 / 00101$: / mov _h,#1 / ret", "ljmp _elsewhere"),
     # ---- left alone ----
     "written by hand": (";naked function: no prologue. / mov a,_g / mov a,_g / mov r7,a / ret", SAME),
@@ -183,6 +194,10 @@ CASES = {
 }
 HEAD = """
 \t.globl _f
+\t.globl _x
+\t.globl _g
+\t.globl _h
+\t.globl _p
 _SBUF\t=\t0x0099
 \t.area DSEG    (DATA)
 _g:
@@ -204,24 +219,68 @@ _f_y_65536_2:
 _f:
 \tar0 = 0x00
 """
+CALLED_ONCE = {
+    "a function called once": (
+        "mov a,_g / lcall _c / mov _h,a / ret | _c:add a,_p / jz 00101$ / inc a / ret / 00101$: / cpl a / ret",
+        "mov a,_g / ; _c / add a,_p / jz 00101$ / inc a / sjmp 00103$ / 00101$: / cpl a / 00103$: / mov _h,a / ret"),
+    "one that goes on into another": (
+        "lcall _c / mov _h,a / ret | _c:mov a,_g / jz 00101$ / ljmp _elsewhere / 00101$: / ret",
+        "; _c / mov a,_g / jz 00103$ / lcall _elsewhere / 00103$: / mov _h,a / ret"),
+    "one that several jumps lead to": (
+        "mov a,_g / jz 00101$ / ljmp _c / 00101$: / mov _h,a / ljmp _c | _c:inc _p / ret",
+        "mov a,_g / jnz 00102$ / mov _h,a / 00102$: / ; _c / inc _p / ret"),
+    "one called twice": ("lcall _c / lcall _c / mov _h,a / ret | _c:inc _p / inc _g / ret", SAME),
+    "one called and jumped to": ("lcall _c / mov _h,a / ljmp _c | _c:inc _p / inc _g / ret", SAME),
+    "what is known at the call is known in it": (
+        "mov a,_g / mov r7,a / lcall _c / mov a,r7 / add a,_g / mov _h,a / ret | _c:mov a,_g / mov _p,a / ret",
+        "mov a,_g / ; _c / mov _p,a / add a,_g / mov _h,a / ret"),
+    "one whose address is taken": ("lcall _c / mov _h,a / ret | _c:inc _p / ret | _other:mov dptr,#_c / ret", SAME),
+    "one written by hand": ("lcall _c / mov _h,a / ret | _c:;naked function: no prologue. / inc _p / ret", SAME),
+    "interrupt code": ("lcall _c_isr / mov _h,a / ret | _c_isr:inc _p / ret", SAME),
+    "one that runs on into the next": ("lcall _c / mov _h,a / ret | _c:inc _p", SAME),
+    "one that is run into": ("lcall _c / mov _h,a / ret | _b:inc _g | _c:inc _p / ret", SAME),
+    "from one register bank to another": ("mov psw,#0x08 / lcall _c / mov psw,#0x00 / ret | _c:inc _p / ret", SAME),
+    "one of another file with a variable of its own": (
+        "lcall _c / mov dptr,#_x / movx a,@dptr / mov _h,a / ret || _c:mov dptr,#_z / movx @dptr,a / mov r7,a / add a,r7 / mov dptr,#_x / movx @dptr,a / ret",
+        "_c = . / mov dptr,#_z / movx @dptr,a / mov r7,a / add a,r7 / mov dptr,#_x / movx @dptr,a / mov _h,a / ret"),
+    "one whose variable has the name of another one here": (
+        "lcall _c / mov _h,a / ret || _c:mov dptr,#_y / movx @dptr,a / ret", SAME),
+    "a volatile variable of another file": (
+        "lcall _c / mov _h,a / ret || _c:mov a,_k / mov a,_k / ret",
+        "_c = . / mov a,_k / mov _h,_k / ret"),
+}
+OTHER_HEAD = """
+\t.globl _c
+\t.area DSEG    (DATA)
+_k:
+\t.area XSEG    (XDATA)
+_y:
+_z:
+\t.area CSEG    (CODE)
+"""
 
 
 def lines_of(code):
     return "".join(f"{line if line.endswith(':') else chr(9) + line}\n" for line in code.split(" / "))
 
 
-def tidied(code, folder):
-    first, *others = code.split(" | ")
-    text = HEAD + lines_of(first)
-    for other in others:
-        name, _, body = other.partition(":")
-        text += f"{name}:\n" + lines_of(body)
-    file = Path(folder) / "x.asm"
-    file.write_text(text + "_caller:\n" + lines_of("lcall _f / 00101$: / sjmp 00101$"))
-    program = Program([str(file)], {str(file): {"v", "w"}})
+def functions(codes):
+    named = (code.partition(":") for code in codes)
+    return "".join(f"{name}:\n" + lines_of(body) for name, _, body in named)
+
+
+def tidied(code, folder, once):
+    here, _, there = code.partition(" || ")
+    first, *others = here.split(" | ")
+    if others and not once:
+        others.append("_again:" + " / ".join(f"lcall {other.partition(':')[0]}" for other in others) + " / ret")
+    files = Path(folder) / "x.asm", Path(folder) / "y.asm"
+    files[0].write_text(HEAD + lines_of(first) + functions([*others, "_main:lcall _f / 00101$: / sjmp 00101$"]))
+    files[1].write_text(OTHER_HEAD + "\tar0 = 0x00\n" + functions(filter(None, there.split(" | "))))
+    program = Program(list(map(str, files)), {str(file): {"v", "w", "k"} for file in files})
     tidy(program)
     function = next(f for f in program.functions if f.name == "_f")
-    lines = [" ".join(line.text.split()) for line in function.lines if line.op or ";" in line.text or
+    lines = [" ".join(line.text.split()) for line in function.lines if line.op or ";" in line.text or " = ." in line.text or
              line.label and line.label != "_f"]
     return " / ".join(lines)
 
@@ -229,11 +288,11 @@ def tidied(code, folder):
 def main():
     failed = 0
     with tempfile.TemporaryDirectory() as folder:
-        for name, (code, wanted) in CASES.items():
-            got, wanted = tidied(code, folder), wanted or code.split(" | ")[0]
+        for name, (code, wanted) in {**CASES, **CALLED_ONCE}.items():
+            got, wanted = tidied(code, folder, name in CALLED_ONCE), wanted or code.split(" |")[0]
             failed += got != wanted
             print(f"{name}:{'PASS' if got == wanted else 'FAIL: ' + got + '     instead of ' + wanted}")
-    print(f"-----------------------\n{len(CASES)} Tests {failed} Failures 0 Ignored")
+    print(f"-----------------------\n{len(CASES) + len(CALLED_ONCE)} Tests {failed} Failures 0 Ignored")
     return 1 if failed else 0
 
 

@@ -20,6 +20,7 @@ SYMBOL = re.compile(r"^_\w+$")
 NUMBER = r"(0x[0-9a-f]+|\d+)"
 CELL = re.compile(rf"^(?:(_\w+)|\(\(?(_\w+) \+ {NUMBER}\)?(?: \+ {NUMBER}\))?)$")
 LOCAL = re.compile(r"^(_\w+)_\d+_\d+$")  # _function_name_65536_12
+DEFINITION = re.compile(r"(_\w+)\s*(?:::?|=)")
 CODE_AREAS = ("CSEG", "HOME")
 MEMORY = ("DSEG", "OSEG", "ISEG", "PSEG", "XSEG", "BSEG")
 BRANCHES = {"jz", "jnz", "jc", "jnc", "jb", "jnb", "jbc", "cjne", "djnz"}
@@ -183,6 +184,7 @@ class Program:
     """All files of an image. parts: {path: [Function or list of lines]}"""
 
     def __init__(self, paths, volatile):
+        self._globals = {}
         self.parts = {path: self._split(path, Path(path).read_text()) for path in paths}
         self.functions = [p for parts in self.parts.values() for p in parts if isinstance(p, Function)]
         self._own = {(f.path, f.name): f for f in self.functions}
@@ -192,8 +194,7 @@ class Program:
                 self._exported.setdefault(f.name, f)
         self._find_data(volatile)
         self._find_names()
-
-    _globals = {}
+        self._definitions = None
 
     def _split(self, path, text):
         parts, current, area, bank, name = [], [], "", 0, None
@@ -233,6 +234,67 @@ class Program:
                 code = "" if line.label or line.text.split()[:1] == [".globl"] else line.text.split(";")[0]
                 for name in re.findall(r"_\w+", code):
                     self._named.setdefault(name, set()).add(function)
+
+    # ---- a function that moves into another ----
+
+    def _defined(self, name):
+        """The files where a symbol is a label, or a number."""
+        if self._definitions is None:
+            self._definitions = {}
+            for path, parts in self.parts.items():
+                for line in (line for part in parts for line in (part if isinstance(part, list) else part.lines)):
+                    found = DEFINITION.match(line.text)
+                    if found:
+                        self._definitions.setdefault(found[1], set()).add(path)
+        return self._definitions.get(name, set())
+
+    def is_one(self, function):
+        """Nobody else has its name, and nothing runs on into it."""
+        parts = self.parts[function.path]
+        before = [part for part in parts[:parts.index(function)] if isinstance(part, Function)][-1:]
+        return (function.name not in self._globals[function.path] or len(self._defined(function.name)) == 1) and \
+            all(f.code and f.code[-1].op in ENDS for f in before)
+
+    def show(self, function, path):
+        """-> can the function stand in another file? What it names there is what it names here, from now on."""
+        here = function.path
+        if path == here:
+            return True
+        names = {name for line in function.code for operand in line.args for name in re.findall(r"_\w+", operand)}
+        own = {name for name in names if here in self._defined(name) and name not in self._globals[here]}
+        if any(len(self._defined(name)) > 1 for name in own) or \
+                any(path in self._defined(name) and name not in self._globals[path] for name in names):
+            return False
+        self.export(here, own)
+        for name in own:
+            if (here, name) in self._own:
+                self._exported[name] = self._own[here, name]
+            if name in self.plain[here]:
+                self.plain[path][name] = self.plain[here][name]
+        for name in names - self.plain[here].keys():
+            self.plain[path].pop(name, None)
+        return True
+
+    def export(self, path, names):
+        for name in sorted(set(names) - self._globals[path]):
+            self._globals[path].add(name)
+            self.parts[path][0].insert(0, Line(f"\t.globl {name}"))
+
+    def moved(self, function, into):
+        """It stands in another one and is a function no more. -> What says where, if it can be seen from outside: a symbol."""
+        path, name, parts = function.path, function.name, self.parts[function.path]
+        # the numbers of registers stay where they are for what follows
+        parts[parts.index(function)] = [line for line in function.lines if re.match(r"\s+ar\d = ", line.text)]
+        self.functions.remove(function)
+        del self._own[path, name], self._named[name]
+        for others in self._named.values():
+            if function in others:
+                others.remove(function)
+                others.add(into)
+        if name not in self._globals[path]:
+            return Line(f"; {name}")
+        del self._exported[name]
+        return Line(f"{name} = .")
 
     def _find_data(self, volatile):
         """plain: {path: {name: area}}, variables that nobody but compiled C changes behind the compiler's back, as a file

@@ -29,6 +29,11 @@ class Flow:
         self.summaries.pop(function, None)
         self.summary(function)
 
+    def gone(self, function):
+        """It stands in the place of its call now."""
+        self.summaries.pop(function, None)
+        del self.wanted[function]
+
     # ---- calls ----
 
     def callee(self, function, line):

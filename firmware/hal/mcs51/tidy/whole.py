@@ -1,6 +1,8 @@
 """The rules over a whole program: callees before their callers, each as long as anything changes."""
 from flow import Flow
+from far import mend
 from homes import find_homes, find_safer
+from inline import inline
 from jumps import Ways
 from own import own_memory
 from simpler import Simplifier
@@ -32,17 +34,22 @@ def tidy(program):
     flow = Flow(program)
     order = bottom_up(program, flow)
     for function in order:
+        if function not in flow.wanted:
+            continue
         if function.may_change():
             improve(program, flow, function)
+            if inline(program, flow, function):
+                improve(program, flow, function)
             if find_homes(program, flow, function, own_memory(program, flow, function)) | find_safer(flow, function):
                 flow.forget(function)
                 improve(program, flow, function)
         flow.forget(function)  # of one that stays as it is, too: what it calls may have changed
     flow = Flow(program)
-    for function in order:
+    for function in [function for function in order if function in flow.wanted]:
         if function.may_change():
             improve(program, flow, function)
             add_up(program, flow, function)
+            mend(function)
         flow.forget(function)
 
 
