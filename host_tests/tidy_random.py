@@ -204,7 +204,7 @@ class Writer:
 
     def piece(self):
         d, r, v, place = self.dice, self.register(), self.variable(), self.place()
-        kind = d.randrange(26)
+        kind = d.randrange(28)
         if kind < 3:
             return [f"mov a,{self.pick(r, v, '#0x05', 'dpl')}"]
         if kind < 6:
@@ -223,6 +223,11 @@ class Writer:
             set_up = ["mov r6,#_x", "mov r7,#(_x >> 8)"] if low == "r6" else ["mov _p,#_y", "mov (_p + 1),#(_y >> 8)"]
             return self.pick(set_up, []) + set_up + [f"mov dpl,{low}", f"mov dph,{high}"] + ["inc dptr"] * d.randrange(7) + [
                 self.pick("movx a,@dptr", "movx @dptr,a")]
+        if kind == 26:
+            return self.sums()
+        if kind == 27:
+            where = self.pick(r, v)
+            return [f"mov a,{where}", self.pick("inc a", "dec a"), f"mov {where},a"]
         if kind == 22:
             turns = d.randrange(1, 4)
             self.labels += turns
@@ -263,6 +268,24 @@ class Writer:
                 return [f"sjmp {self.open[-1]}", label + ":"]
             return [label + ":"]
         return []
+
+    def sums(self):
+        """Places some octets before or behind a pointer's, found by sums of 16 bits."""
+        low, high = self.pick(("_p", "(_p + 1)"), ("r6", "r7"))
+        code = [f"mov {low},#_y", f"mov {high},#(_y >> 8)"] + self.pick([], [f"mov dpl,{low}", f"mov dph,{high}", "movx a,@dptr"])
+        offset = self.dice.randrange(6)
+        for _ in range(self.dice.randrange(1, 5)):
+            first, spare = self.pick("mov dpl,a", "mov r5,a"), self.pick([], ["movx @dptr,a"])
+            code += spare + [f"mov a,#0x{offset & 0xFF:02x}", f"add a,{low}", first, *self.pick(
+                ("clr a", f"addc a,{high}") if offset >= 0 else (f"mov a,{high}", "addc a,#0xff"), (
+                    f"mov a,{high}", f"addc a,#0x{offset >> 8 & 0xFF:02x}"))] + ["mov dpl,r5"] * (first == "mov r5,a") + [
+                "mov dph,a", self.pick(f"mov a,{self.register()}", "movx a,@dptr"), self.pick("movx a,@dptr", "movx @dptr,a")]
+            offset += self.pick(1, 1, 1, 0, 2, -1)
+            if self.dice.random() < .3:
+                code += [f"mov dpl,{low}", f"mov dph,{high}", "inc dptr", "movx a,@dptr"]
+            if self.dice.random() < .2 and low == "r6":
+                code += [f"mov a,#0x01", "add a,r6", "mov r6,a", "clr a", "addc a,r7", "mov r7,a"]
+        return code
 
     def callee(self, kind):
         """_e is called once."""

@@ -162,7 +162,51 @@ CASES = {
     "five octets on, with a carry in hand": (
         "add a,_h / mov dpl,_p / mov dph,(_p + 1) / inc dptr / inc dptr / inc dptr / inc dptr / inc dptr / movx a,@dptr / "
         "addc a,#0x00 / mov _g,a / ret", SAME),
+    # ---- sums of 16 bits ----
+    "the sum is one more than DPTR": (
+        "mov dpl,r6 / mov dph,r7 / inc dptr / movx a,@dptr / mov _g,a / "
+        "mov a,#0x02 / add a,r6 / mov dpl,a / clr a / addc a,r7 / mov dph,a / movx a,@dptr / mov _h,a / ret",
+        "mov dpl,r6 / mov dph,r7 / inc dptr / movx a,@dptr / mov _g,a / inc dptr / movx a,@dptr / mov _h,a / ret"),
+    "it is what DPTR is": (
+        "mov dpl,r6 / mov dph,r7 / inc dptr / movx a,@dptr / mov _g,a / "
+        "mov a,#0x01 / add a,r6 / mov dpl,a / clr a / addc a,r7 / mov dph,a / movx a,@dptr / mov _h,a / ret",
+        "mov dpl,r6 / mov dph,r7 / inc dptr / movx a,@dptr / mov _g,a / movx a,@dptr / mov _h,a / ret"),
+    "two octets more": (
+        "mov dpl,r6 / mov dph,r7 / inc dptr / movx a,@dptr / mov _g,a / "
+        "mov a,#0x03 / add a,r6 / mov dpl,a / clr a / addc a,r7 / mov dph,a / movx a,@dptr / mov _h,a / ret", SAME),
+    "with another carry": (
+        "mov dpl,r6 / mov dph,r7 / inc dptr / movx a,@dptr / mov _g,a / "
+        "mov a,#0x02 / add a,r6 / mov dpl,a / clr a / setb c / addc a,r7 / mov dph,a / movx a,@dptr / mov _h,a / ret", SAME),
+    "whose high half is wanted": (
+        "mov dpl,r6 / mov dph,r7 / movx a,@dptr / mov _g,a / "
+        "mov a,#0x01 / add a,r6 / mov dpl,a / clr a / addc a,r7 / mov dph,a / mov _h,a / movx a,@dptr / mov _p,a / ret", SAME),
+    "one octet behind a sum that is kept": (
+        "mov a,#0xfe / add a,_p / mov r6,a / mov a,(_p + 1) / addc a,#0xff / mov r7,a / mov dpl,r6 / mov dph,a / "
+        "movx a,@dptr / mov _g,a / mov dpl,_p / mov dph,(_p + 1) / movx a,@dptr / mov _h,a / "
+        "mov a,#0xff / add a,_p / mov dpl,a / mov a,(_p + 1) / addc a,#0xff / mov dph,a / movx a,@dptr / mov _p,a / "
+        "mov dpl,r6 / mov dph,r7 / inc dptr / inc dptr / movx a,@dptr / mov (_p + 1),a / ret",
+        "mov a,#0xfe / add a,_p / mov r6,a / mov a,(_p + 1) / addc a,#0xff / mov dpl,r6 / mov dph,a / "
+        "movx a,@dptr / mov _g,a / mov dpl,_p / mov dph,(_p + 1) / movx a,@dptr / mov _h,a / "
+        "mov a,#0xff / add a,_p / mov dpl,a / mov a,(_p + 1) / addc a,#0xff / mov dph,a / movx a,@dptr / mov _p,a / "
+        "inc dptr / movx a,@dptr / mov (_p + 1),a / ret"),
+    "one more of a pointer in registers": (
+        "mov dpl,r6 / mov dph,r7 / movx a,@dptr / mov _g,a / inc r6 / mov dpl,r6 / mov dph,r7 / movx a,@dptr / mov _h,a / ret",
+        "mov dpl,r6 / mov dph,r7 / movx a,@dptr / mov _g,a / inc r6 / mov dpl,r6 / movx a,@dptr / mov _h,a / ret"),
+    "a variable counted in A": ("mov a,_g / dec a / mov _g,a / ret", "dec _g / ret"),
+    "a variable counted in A, where it is wanted": (
+        "mov a,_g / inc a / mov _g,a / add a,_h / mov _h,a / ret", "inc _g / mov a,_g / add a,_h / mov _h,a / ret"),
+    "a volatile variable counted in A": ("mov a,_v / inc a / mov _v,a / ret", SAME),
     # ---- ways ----
+    "a block behind a jump that leads there": (
+        "mov a,_g / jz 00101$ / mov _h,a / sjmp 00103$ / 00101$: / mov _h,#2 / ret / 00103$: / mov _p,a / ret",
+        "mov a,_g / jz 00101$ / mov _h,a / mov _p,a / ret / 00101$: / mov _h,#2 / ret"),
+    "a block that another one runs on into": (
+        "mov a,_g / jz 00101$ / mov _h,a / sjmp 00103$ / 00101$: / mov _h,#2 / 00103$: / mov _p,a / ret", SAME),
+    "a block that would be too far from a branch": (
+        "mov a,_g / jz 00101$ / mov _h,a / " + "inc _p / " * 30 + "sjmp 00103$ / 00101$: / mov _h,#2 / jb _bit,00103$ / ret / 00103$: / " +
+        "inc _p / " * 40 + "mov _p,a / ret",
+        "mov a,_g / jz 00101$ / mov _h,a / " + "inc _p / " * 30 + "sjmp 00103$ / 00101$: / mov _h,#2 / jb _bit,00103$ / ret / 00103$: / " +
+        "inc _p / " * 40 + "mov _p,a / ret"),
     "a call before the end is a jump": ("lcall _elsewhere / ret", "ljmp _elsewhere"),
     "in an interrupt function it is a call": ("push acc / mov a,_g / mov _h,a / lcall _elsewhere / pop acc / reti", SAME),
     "a jump to the end is the end": (
@@ -229,6 +273,9 @@ CALLED_ONCE = {
     "one that several jumps lead to": (
         "mov a,_g / jz 00101$ / ljmp _c / 00101$: / mov _h,a / ljmp _c | _c:inc _p / ret",
         "mov a,_g / jnz 00102$ / mov _h,a / 00102$: / ; _c / inc _p / ret"),
+    "one too long for the branch around it stands apart": (
+        "mov a,_g / jz 00101$ / lcall _c / 00101$: / mov _h,a / ret | _c:" + "inc _p / " * 70 + "ret",
+        "mov a,_g / jz 00101$ / ljmp 00102$ / 00101$: / mov _h,a / ret / 00102$: / ; _c / " + "inc _p / " * 70 + "ljmp 00101$"),
     "one called twice": ("lcall _c / lcall _c / mov _h,a / ret | _c:inc _p / inc _g / ret", SAME),
     "one called and jumped to": ("lcall _c / mov _h,a / ljmp _c | _c:inc _p / inc _g / ret", SAME),
     "what is known at the call is known in it": (

@@ -4,11 +4,9 @@
   cjne a,#x,L                cjne a,#x,L1 ... behind the nearest jump: L1: ljmp L
                              or, where none is near: cjne a,#x,L1 / sjmp L2 / L1: ljmp L / L2:
 """
-from asm import BRANCHES, ENDS, Line, instruction
-from inline import new_labels
-from jumps import OPPOSITE, size
-
-REACH = 124  # octets, to either side
+from asm import ENDS, Line, instruction
+from jumps import OPPOSITE, new_labels, size
+from place import REACH, stand_apart, too_far
 
 
 def mend(function):
@@ -21,24 +19,16 @@ def mend(function):
 
 
 def _mend_one(function):
-    at = _addresses(function)
-    for n, line in enumerate(function.code):
-        if line.op in BRANCHES | {"sjmp"} and line.goes_to in function.labels and \
-                abs(at[function.labels[line.goes_to]] - at[n]) > REACH:
-            _mend(function, at, n, line)
-            return True
-    return False
+    far = too_far(function)
+    if not far:
+        return False
+    line = function.code[far[0]]
+    if line.op == "sjmp" or not stand_apart(function, line):
+        _mend(function, line)
+    return True
 
 
-def _addresses(function):
-    """Of each line of code, at most, and of the end."""
-    at = [0]
-    for line in function.code:
-        at.append(at[-1] + size(line))
-    return at
-
-
-def _mend(function, at, n, line):
+def _mend(function, line):
     labels, far = new_labels(function), instruction("ljmp", line.goes_to)
     if line.op == "sjmp":
         function.put(line, far)
@@ -48,10 +38,19 @@ def _mend(function, at, n, line):
         function.put(line, instruction(OPPOSITE[line.op], *line.args[:-1], over), far, Line(f"{over}:"))
         return
     branch = instruction(line.op, *line.args[:-1], by)
-    near = min((m for m, other in enumerate(function.code) if other.op in ENDS), key=lambda m: abs(at[m] - at[n]), default=n)
-    if near != n and abs(at[near] - at[n]) < REACH - 8:
-        place = function.code[near]
+    place = _behind_a_jump(function, line)
+    if place:
         function.put(line, branch)
         function.put(place, place, Line(f"{by}:"), far)
     else:
         function.put(line, branch, instruction("sjmp", over), Line(f"{by}:"), far, Line(f"{over}:"))
+
+
+def _behind_a_jump(function, branch):
+    """The nearest line that nothing runs on from, if a branch reaches so far."""
+    code = function.code
+    here = code.index(branch)
+    near = min((m for m, line in enumerate(code) if line.op in ENDS), key=lambda m: abs(m - here), default=None)
+    if near is None or sum(map(size, code[min(here, near):max(here, near) + 1])) > REACH - 8:
+        return None
+    return code[near]

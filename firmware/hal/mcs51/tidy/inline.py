@@ -12,6 +12,7 @@ from one register bank to another; between interrupt code, whose name ends in _i
 import re
 
 from asm import BRANCHES, CALLS, ENDS, JUMPS, Line, instruction
+from jumps import new_labels
 
 LONGEST = 500  # lines of a function with all that stands in it
 
@@ -70,13 +71,6 @@ def _put_in(caller, callee, sites, name):
             body.append(line)
     caller.put(last, *body, *[Line(f"{end}:")] * (last.op in CALLS))
     caller.refresh()
-
-
-def new_labels(function):
-    number = max((int(label[:-1]) for label in function.labels), default=100)
-    while True:
-        number += 1
-        yield f"{number:05d}$"
 
 
 def _back(line, end):

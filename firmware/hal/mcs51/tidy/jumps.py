@@ -27,6 +27,13 @@ def size(line):
     return 1 + len(direct)
 
 
+def new_labels(function):
+    number = max((int(label[:-1]) for label in function.labels), default=100)
+    while True:
+        number += 1
+        yield f"{number:05d}$"
+
+
 class Ways:
     def __init__(self, function):
         self.function = function

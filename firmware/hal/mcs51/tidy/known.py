@@ -2,8 +2,9 @@
 
 A value is anything equal to itself: a constant, what an operation makes of two values, or one of its own kind that
 nobody else has. Behind a label only what every way to it agrees on is known; a loop's head knows nothing.
-DPTR: the values of its halves are ("low", base, offset) and ("high", base, offset) where they belong together, base
-being a symbol or a pair of values, so that one access behind another is an `inc dptr` away.
+DPTR: what belongs together are the halves ("low", symbol, offset) and ("high", symbol, offset), and of a pair of values the
+sum of its low one and ("upper", low, high, offset); so one access behind another is known to be an `inc dptr` away, and a
+sum of 16 bits for a pointer. What carry holds behind an addition is ("carry", value, number).
 
 Memory is followed only in variables that compiled C alone changes (Program.plain); a call, a store through a pointer,
 or an access to a port ends what is known of all but the function's own locals.
@@ -59,15 +60,23 @@ def pointer(low, high):
         return low[1:]
     if low[0] == "#" and high[0] == "#":
         return "", low[1] | high[1] << 8
+    if high[0] == "upper" and low == plus(high[1], high[3]):
+        return ("pair", *high[1:3]), high[3]
     return ("pair", low, high), 0
 
 
 def halves(base, offset):
     if base == "":
         return ("#", offset & 0xFF), ("#", offset >> 8 & 0xFF)
-    if base[0] == "pair" and not offset:
-        return base[1:]
+    if base[0] == "pair":
+        return plus(base[1], offset), ("upper", *base[1:], offset) if offset else base[2]
     return ("low", base, offset), ("high", base, offset)
+
+
+def upper(low, high, number):
+    """High half of what is `number` more than a pair of values."""
+    base, offset = pointer(low, high)
+    return halves(base, (offset + number + 0x8000 & 0xFFFF) - 0x8000)[1]
 
 
 class Known:
@@ -137,6 +146,14 @@ class Follower:
                 self.step(done)
                 reached = done.op not in ENDS
 
+    def ahead(self, lines):
+        """What will be known behind these lines."""
+        now, self.now = self.now, Known(self.now.held)
+        for line in lines:
+            self.step(line)
+        now, self.now = self.now, now
+        return now
+
     def value(self, operand):
         """of what an operand reads; None: nobody knows, and it may be different the next time"""
         found = constant(operand)
@@ -186,8 +203,16 @@ class Follower:
             one, other = sorted((now.of("a"), self.value(second)), key=repr)
             now.forget(line.writes)
             now.put("a", plus(other, one[1]) if op == "add" and one[0] == "#" else result(op, one, other))
-        elif op in ("inc", "dec") and self._register(first):
-            name = self._register(first)
+            if op == "add" and one[0] == "#":
+                now.put("c", ("carry", other, one[1]) if one[1] else ("#", 0))
+        elif op == "addc" and now.of("c")[0] == "carry" and self.value(second):
+            one, other = sorted((now.of("a"), self.value(second)), key=repr)
+            low, number = now.of("c")[1:]
+            now.forget(line.writes)
+            if one[0] == "#":
+                now.put("a", upper(low, other, one[1] << 8 | number))
+        elif op in ("inc", "dec") and (self._register(first) or self.cell_of(first)):
+            name = self._register(first) or self.cell_of(first)
             now.put(name, plus(now.of(name), 1 if op == "inc" else -1))
         elif op in ("cpl", "swap", "rl", "rr") and self._register(first):
             now.put(first, result(op, now.of(first)))

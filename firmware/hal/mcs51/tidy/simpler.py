@@ -6,6 +6,9 @@
   a store of what the place holds                   nothing
   mov a,X / add a,Y with Y in A before              add a,X
   *p++ twice                                        DPTR counts, p is set behind it
+  DPTR to be set to what it is, or one more, by a   nothing, or inc dptr
+  sum of 16 bits
+  mov a,X / dec a / mov X,a                         dec X / mov a,X
   mov R,X / anl R,#k / mov a,R                      the same in A, which is shorter
   mov R,a with one more, or less, than R has        inc R, dec R
   a copy in another register                        the one that has had it for longer: the copy may be unread then
@@ -76,8 +79,11 @@ class Simplifier:
         if op == "mov" and first == "dpl" and self._next(line)[0].args[:1] == ("dph",) and self._next(line)[0].op == "mov":
             better = self._pointer_pair(line)
             return self._move(line, first, second) if better is None else better
+        if op == "mov" and first == "dpl" and second == "a":
+            better = self._pointer_sum(line)
+            return self._move(line, first, second) if better is None else better
         if op == "mov":
-            return self._joined(line) or self._through_a(line, first, second) or self._move(line, first, second)
+            return self._counted(line, first, second) or self._joined(line) or self._through_a(line, first, second) or self._move(line, first, second)
         if op in ("anl", "orl", "xrl") and second == "a" and self._next(line)[0].same("mov", "a", first[1:]) \
                 and self._is_r(first[1:]):
             self._drop_next(self._next(line))
@@ -144,10 +150,34 @@ class Simplifier:
         steps = [step for step in self._next(high, 9)]
         steps = steps[:next((n for n, s in enumerate(steps) if not s.same("inc", "dptr")), len(steps))]
         at, there = self._at()
-        if at != base or not offset <= there <= offset + len(steps):
+        if at != base or not offset - 1 <= there <= offset + len(steps):
             return None
-        self._drop_next([high] + steps[:there - offset])
-        return []
+        self._drop_next([high] + steps[:max(there - offset, 0)])
+        return [instruction("inc", "dptr")] * (there < offset)
+
+    def _pointer_sum(self, line):
+        """mov dpl,a / clr a / addc a,X / mov dph,a: the low half of a sum, and the high one with its carry."""
+        low, following = self.now.of("a"), self._next(line, 4)
+        high = following[2]
+        if following[0].args[:1] != ("a",) or following[1].op != "addc" or not high.same("mov", "dph", "a") or \
+                following[0].op not in ("clr", "mov") or \
+                self.live.get(following[3], ~0) & (A | C | F):
+            return None
+        base, offset = pointer(low, self.follower.ahead(following[:2]).of("a"))
+        at, there = self._at()
+        if at != base or there not in (offset, offset - 1):
+            return None
+        self._drop_next(following[:3])
+        return [instruction("inc", "dptr")] * (there < offset)
+
+    def _counted(self, line, first, second):
+        """mov a,X / dec a / mov X,a, X being a register or a variable."""
+        middle, last = self._next(line, 2)
+        if first != "a" or not (self._is_r(second) or self.follower.cell_of(second)) or not last.same("mov", second, "a") or \
+                middle.op not in ("inc", "dec") or middle.args != ("a",):
+            return None
+        self._drop_next([middle, last])
+        return [instruction(middle.op, second), instruction("mov", "a", second)]
 
     def _counted_pointer(self, line, low):
         """inc _p / clr a / cjne a,_p,L / inc (_p + 1) / L: where DPTR is _p, and will be again: inc dptr, and stored."""

@@ -5,6 +5,7 @@ from homes import find_homes, find_safer
 from inline import inline
 from jumps import Ways
 from own import own_memory
+from place import follow
 from simpler import Simplifier
 from strides import add_up
 from unread import Unread
@@ -55,7 +56,7 @@ def tidy(program):
 
 def improve(program, flow, function):
     for _ in range(ROUNDS):
-        ways = Ways(function).run()
+        ways = Ways(function).run() | follow(function)
         simpler = Simplifier(program, flow, function, own_memory(program, flow, function)).run()
         unread = Unread(program, flow, function, own_memory(program, flow, function)).run()
         if not (ways or simpler or unread):
