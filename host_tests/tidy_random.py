@@ -204,7 +204,7 @@ class Writer:
 
     def piece(self):
         d, r, v, place = self.dice, self.register(), self.variable(), self.place()
-        kind = d.randrange(28)
+        kind = d.randrange(31)
         if kind < 3:
             return [f"mov a,{self.pick(r, v, '#0x05', 'dpl')}"]
         if kind < 6:
@@ -225,6 +225,8 @@ class Writer:
                 self.pick("movx a,@dptr", "movx @dptr,a")]
         if kind == 26:
             return self.sums()
+        if kind > 27:
+            return self.truth()
         if kind == 27:
             where = self.pick(r, v)
             return [f"mov a,{where}", self.pick("inc a", "dec a"), f"mov {where},a"]
@@ -286,6 +288,23 @@ class Writer:
             if self.dice.random() < .2 and low == "r6":
                 code += [f"mov a,#0x01", "add a,r6", "mov r6,a", "clr a", "addc a,r7", "mov r7,a"]
         return code
+
+    def truth(self):
+        """A comparison's result in a bit or in an octet, looked at again."""
+        self.labels += 4
+        no, on, over, end = (f"{self.labels - n:05d}$" for n in range(4))
+        bit, to = "_f_sloc1_1_0" if self.name == "_f" else "c", self.pick("dpl", "r6", "r7")
+        test = self.pick(f"jz {no}", f"jc {no}", f"cjne {self.register()},#0x02,{no}", f"jnb _bit,{no}", f"cjne a,{self.variable()},{no}")
+        if self.dice.random() < .5:
+            code = [test, f"mov {to},#0x{self.pick(0, 1, 5):02x}", f"sjmp {on}", f"{no}:", f"mov {to},#0x{self.pick(0, 0, 1):02x}", f"{on}:"]
+        else:
+            code = [test, f"setb {bit}", f"sjmp {on}", f"{no}:", f"clr {bit}", f"{on}:"] + [f"mov c,{bit}"] * (bit != "c") + \
+                self.pick(["cpl c"], []) + ["clr a", "rlc a", f"mov {to},a"]
+        look = self.pick(["mov a," + to, self.pick("jz", "jnz") + f" {over}"], ["mov a," + to, f"cjne a,#0x01,{over}"],
+                         ["mov a," + to, f"jnb acc.0,{over}"], [f"mov r7,{to}"] * (to == "dpl") + [f"cjne r7,#0x00,{over}"],
+                         ["mov a," + to, "add a,#0xff", self.pick("jc", "jnc") + f" {over}"])
+        then = self.pick([f"mov {self.variable()},#0x07", f"sjmp {end}"], [f"mov {self.variable()},{self.register()}"], ["ret"])
+        return code + look + then + [f"{over}:", f"mov {self.variable()},{self.pick('a', to)}", f"{end}:"]
 
     def callee(self, kind):
         """_e is called once."""

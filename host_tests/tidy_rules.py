@@ -196,6 +196,25 @@ CASES = {
     "a variable counted in A, where it is wanted": (
         "mov a,_g / inc a / mov _g,a / add a,_h / mov _h,a / ret", "inc _g / mov a,_g / add a,_h / mov _h,a / ret"),
     "a volatile variable counted in A": ("mov a,_v / inc a / mov _v,a / ret", SAME),
+    # ---- tests whose outcome is known ----
+    "a result that is looked at again": (
+        "mov a,_g / jz 00101$ / mov dpl,#1 / sjmp 00102$ / 00101$: / mov dpl,#0 / 00102$: / mov a,dpl / jz 00103$ / mov _h,#1 / "
+        "ret / 00103$: / mov _p,#1 / ret",
+        "mov a,_g / jz 00103$ / mov _h,#1 / ret / 00103$: / mov _p,#1 / ret"),
+    "a result in a bit": (
+        "mov a,_g / jz 00101$ / setb _f_sloc0_1_0 / sjmp 00102$ / 00101$: / clr _f_sloc0_1_0 / 00102$: / mov c,_f_sloc0_1_0 / "
+        "clr a / rlc a / mov dpl,a / mov a,dpl / jz 00103$ / mov _h,#1 / ret / 00103$: / mov _p,#1 / ret",
+        "mov a,_g / jz 00103$ / mov _h,#1 / ret / 00103$: / mov _p,#1 / ret"),
+    "a result in a bit that others see": (
+        "mov a,_g / jz 00101$ / setb _bit / sjmp 00102$ / 00101$: / clr _bit / 00102$: / mov c,_bit / "
+        "clr a / rlc a / jz 00103$ / mov _h,#1 / ret / 00103$: / mov _p,#1 / ret", SAME),
+    "a comparison says which is less, too": (
+        "mov a,_g / jz 00101$ / mov r7,#1 / sjmp 00102$ / 00101$: / mov r7,_h / 00102$: / cjne r7,#0x02,00103$ / 00103$: / "
+        "clr a / rlc a / mov _p,a / ret",
+        "mov a,_g / jz 00101$ / setb c / sjmp 00103$ / 00101$: / mov r7,_h / cjne r7,#0x02,00103$ / 00103$: / clr a / rlc a / mov _p,a / ret"),
+    "a number that is another one": (
+        "mov r7,#0x00 / mov a,_g / cjne r7,#0x00,00101$ / mov _h,a / ret / 00101$: / mov _p,a / ret", "mov _h,_g / ret"),
+    "a bit of a number": ("mov a,#0x04 / mov _g,a / jnb acc.2,00101$ / mov _h,#1 / 00101$: / ret", "mov _g,#0x04 / mov _h,#1 / ret"),
     # ---- ways ----
     "a block behind a jump that leads there": (
         "mov a,_g / jz 00101$ / mov _h,a / sjmp 00103$ / 00101$: / mov _h,#2 / ret / 00103$: / mov _p,a / ret",

@@ -18,6 +18,7 @@ from asm import BANK, BIT, BRANCHES, C, CALLS, DPTR, ENDS, JUMPS, NAMES, RETURNS
 CONSTANT = re.compile(r"^#(0x[0-9a-f]+|\d+)$")
 ADDRESS = re.compile(r"^#\(?(_\w+)(?: \+ (0x[0-9a-f]+|\d+)\)?)?$")
 HIGH = re.compile(r"^#\(\(?(_\w+)(?: \+ (0x[0-9a-f]+|\d+)\))? >> 8\)$")
+ACC_BIT = re.compile(r"acc\.(\d)$")
 PURE = {"anl", "orl", "xrl", "add"}  # of A and another operand, either way round
 numbers = count()
 results = {}  # of operations: what is made of the same in the same way has the same number
@@ -52,6 +53,15 @@ def plus(value, number):
         return "low", value[1], value[2] + number
     base, before = value[1:] if value[0] == "sum" else (value, 0)
     return ("sum", base, before + number & 0xFF) if (before + number) & 0xFF else base
+
+
+def combined(op, one, other):
+    """What `add`, `anl`, `orl` or `xrl` makes of two values in order."""
+    if op == "add" and one[0] == "#":
+        return plus(other, one[1])
+    if one[0] == other[0] == "#":
+        return "#", {"anl": one[1] & other[1], "orl": one[1] | other[1], "xrl": one[1] ^ other[1]}[op]
+    return result(op, one, other)
 
 
 def pointer(low, high):
@@ -174,6 +184,26 @@ class Follower:
             where = at[1:] if at[0] == "low" and isinstance(at[1], str) else None
         return where if where and self.plain.get(where[0]) in kinds else None
 
+    def bit_of(self, operand):
+        """The cell of a bit that is the function's own."""
+        where = cell(operand)
+        return where if where and where[0] in self.own and self.plain.get(where[0]) == "BSEG" else None
+
+    def outcome(self, line):
+        """Is this branch taken? None: not known"""
+        op, now = line.op, self.now
+        if op in ("jz", "jnz", "jc", "jnc"):
+            value = now.of("a" if op[-1] == "z" else "c")
+            return ((value[1] == 0) == (op in ("jz", "jnc"))) if value[0] == "#" else None
+        if op in ("jb", "jnb"):
+            number = ACC_BIT.match(line.args[0])
+            value = now.of("a") if number else now.of(self.bit_of(line.args[0])) if self.bit_of(line.args[0]) else fresh()
+            return bool(value[1] >> int(number[1] if number else 0) & 1) == (op == "jb") if value[0] == "#" else None
+        if op == "cjne":
+            one, other = self.value(line.args[0]), self.value(line.args[1])
+            return one != other if one and other and one[0] == other[0] == "#" else None
+        return None
+
     def external(self, operand):
         if operand == "@dptr":
             where, kinds = pointer(self.now.of("dpl"), self.now.of("dph")), ("XSEG", "PSEG")
@@ -202,9 +232,9 @@ class Follower:
         elif op in PURE and first == "a" and self.value(second):
             one, other = sorted((now.of("a"), self.value(second)), key=repr)
             now.forget(line.writes)
-            now.put("a", plus(other, one[1]) if op == "add" and one[0] == "#" else result(op, one, other))
+            now.put("a", combined(op, one, other))
             if op == "add" and one[0] == "#":
-                now.put("c", ("carry", other, one[1]) if one[1] else ("#", 0))
+                now.put("c", ("#", other[1] + one[1] >> 8) if other[0] == "#" else ("carry", other, one[1]) if one[1] else ("#", 0))
         elif op == "addc" and now.of("c")[0] == "carry" and self.value(second):
             one, other = sorted((now.of("a"), self.value(second)), key=repr)
             low, number = now.of("c")[1:]
@@ -216,10 +246,14 @@ class Follower:
             now.put(name, plus(now.of(name), 1 if op == "inc" else -1))
         elif op in ("cpl", "swap", "rl", "rr") and self._register(first):
             now.put(first, result(op, now.of(first)))
-        elif op == "clr" and first in ("a", "c"):
-            now.put(first, ("#", 0))
-        elif op == "setb" and first == "c":
-            now.put("c", ("#", 1))
+        elif op in ("clr", "setb") and (first in ("a", "c") or self.bit_of(first)):
+            now.put(first if first in ("a", "c") else self.bit_of(first), ("#", int(op == "setb")))
+        elif op == "cpl" and first == "c" and now.of("c")[0] == "#":
+            now.put("c", ("#", 1 - now.of("c")[1]))
+        elif op == "rlc" and now.of("a")[0] == now.of("c")[0] == "#":
+            total = now.of("a")[1] << 1 | now.of("c")[1]
+            now.put("a", ("#", total & 0xFF))
+            now.put("c", ("#", total >> 8))
         else:
             self._other(line, first)
 
@@ -239,6 +273,9 @@ class Follower:
                     now.forget_memory(self.own | {n for n, kind in self.plain.items() if kind not in ("XSEG", "PSEG")})
                 else:
                     now.put(line.where, now.of("a"))
+            return
+        if "c" in (first, second) and (self.bit_of(first) or self.bit_of(second)):
+            now.put("c" if first == "c" else self.bit_of(first), now.of(self.bit_of(second) or "c"))
             return
         value = self.value(second) or fresh()
         name, where = self._register(first), self.cell_of(first)
@@ -292,13 +329,18 @@ class Follower:
             there.forget(C)
             now.held = dict(there.held)
             one, other = self.value(args[0]), self.value(args[1])
-            if one and other:
+            if one and other and one[0] == other[0] == "#":
+                there.held["c"] = ("#", int(one[1] < other[1]))
+            elif one and other:
                 now.replace(one, other) if other[0] == "#" else now.replace(other, one)
             now.held["c"] = ("#", 0)
         if op in ("jz", "jnz"):
             (there if op == "jz" else now).replace(now.of("a"), ("#", 0))
         if op in ("jc", "jnc"):
             there.held["c"], now.held["c"] = (("#", 1), ("#", 0)) if op == "jc" else (("#", 0), ("#", 1))
+        if op in ("jb", "jnb") and self.bit_of(args[0]):
+            where = self.bit_of(args[0])
+            there.held[where], now.held[where] = (("#", 1), ("#", 0)) if op == "jb" else (("#", 0), ("#", 1))
         self._remember(line.goes_to, there)
 
     def _remember(self, label, known):

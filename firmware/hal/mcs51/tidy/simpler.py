@@ -94,14 +94,22 @@ class Simplifier:
             return self._external(line, first, second)
         if op in ("clr", "setb") and first in ("a", "c"):
             return [] if self.now.of(first) == ("#", int(op == "setb")) else None
-        if op in ("jz", "jnz") and self.now.of("a")[0] == "#":
-            return [instruction("sjmp", first)] if (self.now.of("a")[1] == 0) == (op == "jz") else []
-        if op in ("jc", "jnc") and self.now.of("c")[0] == "#":
-            return [instruction("sjmp", first)] if (self.now.of("c")[1] == 1) == (op == "jc") else []
+        if op in BRANCHES and self.follower.outcome(line) is not None and not (op == "cjne" and self._wants_carry(line)):
+            return [instruction("ljmp", line.goes_to)] if self.follower.outcome(line) else []
+        if op == "rlc" and self.now.of("a")[0] == self.now.of("c")[0] == "#" and not self._wanted_behind(line) & C:
+            return [instruction("mov", "a", f"#0x{self.follower.ahead([line]).of('a')[1]:02x}")]
         if op in COMMUTATIVE + ("addc", "subb") and first == "a" and not register(second) and second[0] != "@":
             where = self._where(self.follower.value(second))
             return [instruction(op, "a", where)] if where else None
         return None
+
+    def _wants_carry(self, line):
+        there = self.function.code[self.function.labels[line.goes_to]] if line.goes_to in self.function.labels else None
+        return (self._wanted_behind(line) | self.live.get(there, ~0)) & C
+
+    def _wanted_behind(self, line):
+        code = self.function.code
+        return self.live.get(code[code.index(line) + 1], ~0) if line in self.live and line is not code[-1] else ~0
 
     def _where(self, value):
         """A register of the bank that holds a value."""

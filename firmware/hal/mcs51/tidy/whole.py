@@ -8,6 +8,7 @@ from own import own_memory
 from place import follow
 from simpler import Simplifier
 from strides import add_up
+from thread import Threads
 from unread import Unread
 
 ROUNDS = 6
@@ -57,6 +58,7 @@ def tidy(program):
 def improve(program, flow, function):
     for _ in range(ROUNDS):
         ways = Ways(function).run() | follow(function)
+        ways |= Threads(program, flow, function, own_memory(program, flow, function)).run()
         simpler = Simplifier(program, flow, function, own_memory(program, flow, function)).run()
         unread = Unread(program, flow, function, own_memory(program, flow, function)).run()
         if not (ways or simpler or unread):
