@@ -550,6 +550,22 @@ static void lsap_status_says_what_a_sap_offers(void)
     ANSWERED("68 0B 0B 68 82 88 08 3E 15 05 00 30 11 33 35 13 16");
 }
 
+static void lsap_status_says_how_the_sap_is_activated_now(void)
+{
+    fma_sap_activate(20, 5, FDL_SDA, 4, FDL_TO_MAIN);
+    request("68 05 05 68 88 82 4F 14 3E AB 16");
+    ANSWERED("68 0B 0B 68 82 88 08 3E 14 05 00 10 31 33 35 12 16");
+    fma_sap_activate(20, FDL_ALL, FDL_SDN, 4, FDL_TO_MAIN);
+    request("68 05 05 68 88 82 4F 14 3E AB 16");
+    ANSWERED("68 0B 0B 68 82 88 08 3E 14 7F 00 30 11 33 35 8C 16");
+    fma_sap_deactivate(20);
+    request("68 05 05 68 88 82 4F 14 3E AB 16");
+    ANSWERED("10 02 08 03 0D 16");
+    fma_sap_activate(20, 5, FDL_SDA, 4, FDL_TO_MAIN);
+    request("68 05 05 68 88 82 4F 14 3E AB 16");
+    ANSWERED("68 0B 0B 68 82 88 08 3E 14 05 00 10 31 33 35 12 16");
+}
+
 static void lsap_status_without_a_sap_means_the_default_sap(void)
 {
     unit_default_sap(FDL_TO_MAIN);
@@ -705,6 +721,7 @@ int main(void)
     RUN_TEST(ident_is_answered_with_four_lengths_and_four_strings);
     RUN_TEST(ident_has_at_most_64_octets);
     RUN_TEST(lsap_status_says_what_a_sap_offers);
+    RUN_TEST(lsap_status_says_how_the_sap_is_activated_now);
     RUN_TEST(lsap_status_without_a_sap_means_the_default_sap);
     RUN_TEST(lsap_status_of_a_sap_that_is_not_active_is_refused_rs);
     RUN_TEST(heard_tells_any_own_and_owner_apart_and_forgets);

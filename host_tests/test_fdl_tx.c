@@ -125,6 +125,38 @@ static void one_sap_alone_extends_one_address_alone(void)
     ANSWER("68 05 05 68 82 08 08 3E AA 7A 16");
 }
 
+/* The frame that stands there is for another header: once as it was left by the last answer, once written by main after it. */
+static void each_answer_has_the_saps_of_its_request(void)
+{
+    uint8_t round;
+
+    for (round = 0; round < 2; round++) {
+        write("AA", FDL_UPDATE_LOW);
+        asked_with_saps(60, 62);
+        ANSWER("68 06 06 68 82 88 08 3E 3C AA 36 16"); /* 82 + 88 + 08 + 3E + 3C + AA = 236 */
+        if (round)
+            write("AA", FDL_UPDATE_LOW);
+        asked_with_saps(FDL_SAP_NIL, FDL_SAP_NIL);
+        ANSWER("68 04 04 68 02 08 08 AA BC 16");
+        if (round)
+            write("AA", FDL_UPDATE_LOW);
+        asked_with_saps(60, FDL_SAP_NIL);
+        ANSWER("68 05 05 68 02 88 08 3C AA 78 16");
+        if (round)
+            write("AA", FDL_UPDATE_LOW);
+        asked_with_saps(FDL_SAP_NIL, 62);
+        ANSWER("68 05 05 68 82 08 08 3E AA 7A 16");
+        if (round)
+            write("AA", FDL_UPDATE_LOW);
+        asked_with_saps(FDL_SAP_NIL, 61);
+        ANSWER("68 05 05 68 82 08 08 3D AA 79 16");
+        asked_with_saps(59, 62);
+        ANSWER("68 06 06 68 82 88 08 3E 3B AA 35 16");
+        asked_with_saps(59, 61);
+        ANSWER("68 06 06 68 82 88 08 3D 3B AA 34 16");
+    }
+}
+
 static void high_priority_data_say_diagnosis_pending(void)
 {
     write("BD DB", FDL_UPDATE_HIGH);
@@ -289,6 +321,7 @@ int main(void)
     RUN_TEST(data_without_saps_go_out_as_sd2);
     RUN_TEST(saps_come_back_mirrored_between_fc_and_data);
     RUN_TEST(one_sap_alone_extends_one_address_alone);
+    RUN_TEST(each_answer_has_the_saps_of_its_request);
     RUN_TEST(high_priority_data_say_diagnosis_pending);
     RUN_TEST(eight_octets_answer_an_sd3_as_sd3_and_an_sd2_as_sd2);
     RUN_TEST(saps_count_among_the_eight_octets_of_sd3);

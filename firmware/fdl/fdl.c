@@ -187,12 +187,14 @@ void fdl_drop_isr(void) IN_ISR
 
 /* ---- the end of a telegram ------------------------------------------------------------------------------- */
 
-/* Telegrams whose header is alike differ in FCS most of the time. */
-static bool is_retry_isr(void) IN_ISR
+/* FC is that of the request answered last: is it the same telegram? Those whose header is alike differ in FCS most of the
+ * time. */
+static void compare_isr(void) IN_ISR
 {
-    return fdl_header.fcs == fdl_last.fcs && fdl_header.len == fdl_last.len && fdl_header.da == fdl_last.da &&
-           fdl_header.sa == fdl_last.sa && fdl_rx_buf[FDL_BODY + 3u] == fdl_last.more[0] &&
-           fdl_rx_buf[FDL_BODY + 4u] == fdl_last.more[1];
+    if (fdl_header.fcs != fdl_last.fcs || fdl_header.len != fdl_last.len || fdl_header.da != fdl_last.da ||
+        fdl_header.sa != fdl_last.sa || fdl_rx_buf[FDL_BODY + 3u] != fdl_last.more[0] ||
+        fdl_rx_buf[FDL_BODY + 4u] != fdl_last.more[1])
+        fdl_plan.again = false;
 }
 
 /* As planned: the room that is sent now is kept until the next answer. (It is turned afterwards: the other station
@@ -229,8 +231,8 @@ void fdl_telegram_isr(void) IN_ISR
     }
     heard |= fdl_plan.hears;
     fdl_plan.stage = FDL_TO_BOOK;
-    if (fdl_plan.again && !is_retry_isr())
-        fdl_plan.again = false;
+    if (fdl_plan.again)
+        compare_isr();
     if (fdl_plan.again)
         again_isr();
     else if (fdl_plan.is)

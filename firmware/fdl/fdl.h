@@ -134,11 +134,9 @@ void fdl_data_ind(const struct fdl_ind XDATA *ind);
  *
  *   room   | length sum | SD LE LEr SD DA SA FC DAE SAE | L_sdu ......... | FCS ED |
  *
- * A whole frame stands in a room beforehand, up to ED: the SD2 that answers a request to dsap from ssap. Whom it goes to
- * and with which priority, DA SA FC, is looked at when it is used. Only where other SAPs are asked, or by SD3, is a frame
- * built around the data anew.
- * Invariants: sent, ready and spare are the three rooms, in any order; a room with frame_len != 0 holds a frame with dsap,
- * ssap and a good FCS. */
+ * A whole frame stands in a room beforehand, up to ED, an SD2. Whether it is the one that answers a request, DA SA FC DAE
+ * SAE, is looked at when it is used; else it is built around the data anew.
+ * Invariants: sent, ready and spare are the three rooms, in any order; a room with head != 0 holds a frame with a good FCS. */
 #define FDL_ROOM_HEAD 11u
 #define FDL_ROOM_TAIL 2u
 #define FDL_ROOM(lsdu_max) ((lsdu_max) + FDL_ROOM_HEAD + FDL_ROOM_TAIL)
@@ -151,12 +149,11 @@ void fdl_data_ind(const struct fdl_ind XDATA *ind);
 
 struct fdl_room {
     uint8_t XDATA *octets;
-    uint8_t frame_len; /* 0: the frame is still to be built */
+    uint8_t head; /* of its frame, DA..SAE: 3..5 octets; 0: there is no frame */
 };
 struct fdl_reply {
-    uint8_t dsap; /* of the request that is answered; with FDL_AS_SD3 */
-    uint8_t ssap;
-    uint8_t is; /* FDL_FRESH ... */
+    uint8_t sap; /* where it is asked as a rule */
+    uint8_t is;  /* FDL_FRESH ...               */
     struct fdl_room PAGED *sent;
     struct fdl_room PAGED *ready;
     struct fdl_room PAGED *spare;

@@ -27,21 +27,6 @@ const CODE uint8_t fdl_functions[FDL_FC_FUNCTION + 1u] = {
 
 /* ---- the answer ------------------------------------------------------------------------------------------ */
 
-/* Has the reply been answering other SAPs? Then there are no frames. */
-static void readdress_isr(void) IN_ISR
-{
-    struct fdl_reply PAGED *reply = fdl_req.reply;
-    const uint8_t dsap = fdl_req.dsap | fdl_req.sd3;
-
-    if (reply->dsap == dsap && reply->ssap == fdl_req.ssap)
-        return;
-    reply->dsap = dsap;
-    reply->ssap = fdl_req.ssap;
-    reply->rooms[0].frame_len = 0;
-    reply->rooms[1].frame_len = 0;
-    reply->rooms[2].frame_len = 0;
-}
-
 static void refuse_isr(uint8_t function) IN_ISR
 {
     fdl_plan.refusal = function;
@@ -60,9 +45,7 @@ static void empty_isr(void) IN_ISR
 /* The room that holds the answer kept for a retry is not written to before the request is known to be good. */
 static void write_isr(struct fdl_room PAGED *room) IN_ISR
 {
-    struct fdl_reply PAGED *reply = fdl_req.reply;
-
-    if (room == reply->sent && fdl_last.reply == reply)
+    if (!(fdl_plan.is & FDL_FRESH) && fdl_last.reply == fdl_req.reply)
         fdl_plan.late = true;
     else
         fdl_tx_frame_isr(room);
@@ -70,30 +53,31 @@ static void write_isr(struct fdl_room PAGED *room) IN_ISR
 
 static void no_frame_isr(struct fdl_room PAGED *room) IN_ISR
 {
-    const uint8_t len = room->octets[0];
+    const uint8_t le = (uint8_t)(phy_tx.len - 6u); /* at most 251 */
 
-    if (len == 0)
+    if (le == (uint8_t)(fdl_header.len - fdl_req.len))
         empty_isr();
-    else if ((uint8_t)(fdl_header.len - fdl_req.len + len) > FDL_LE_MAX) /* at most 251 */
+    else if (le > FDL_LE_MAX)
         refuse_isr(FDL_UE); /* our choice: asked with SAPs, they leave no room for so many data */
     else
         write_isr(room);
 }
 
+/* The frame that stands there, if it is one and the right one. */
 static void room_isr(struct fdl_room PAGED *room) IN_ISR
 {
     const uint8_t fc = FDL_DL | (fdl_plan.is & FDL_HIGH);
-    const uint8_t XDATA *head; /* DA SA FC */
+    const uint8_t head = (uint8_t)(fdl_header.len - fdl_req.len);
+    const uint8_t XDATA *at = room->octets;
 
-    phy_tx.len = room->frame_len;
-    if (!phy_tx.len) {
+    phy_tx.len = (uint8_t)(at[0] + head + 6u);
+    at += (uint8_t)(FDL_ROOM_HEAD - 4u - head);
+    phy_tx.at = at;
+    at += 4;
+    if (room->head != (head | fdl_req.sd3) || at[0] != fdl_header.sa || at[1] != fdl_header.da || at[2] != fc ||
+        (head == 4u && at[3] != fdl_header.more[0]) ||
+        (head == 5u && (at[3] != fdl_header.more[1] || at[4] != fdl_header.more[0])))
         no_frame_isr(room);
-        return;
-    }
-    head = room->octets + (uint8_t)(FDL_ROOM_HEAD + fdl_req.len - fdl_header.len);
-    phy_tx.at = head - 4;
-    if (head[0] != fdl_header.sa || head[1] != fdl_header.da || head[2] != fc)
-        write_isr(room);
 }
 
 /* An SRD, Ident or LSAP status is answered from fdl_req.reply. */
@@ -150,37 +134,31 @@ static uint8_t status_isr(void) IN_ISR
 }
 
 /* The rest of the decision: what may be another one each time. */
-static uint8_t settle_isr(void) IN_ISR
+static void settle_isr(void) IN_ISR
 {
-    fdl_req.reply = fdl_plan.row_reply;
+    fdl_plan.stage = FDL_PLANNED;
+    fdl_plan.refusal = fdl_plan.result;
     fdl_plan.handling = fdl_plan.row_handling;
-    if (fdl_plan.handling == FDL_TO_ISR)
-        return fdl_ask_isr();
-    if (fdl_plan.handling == FDL_TO_MAIN && !fdl_box_is_free_isr()) {
+    fdl_req.reply = fdl_plan.row_reply;
+    if (fdl_plan.handling == FDL_TO_ISR) {
+        fdl_plan.refusal = fdl_ask_isr();
+    } else if (fdl_plan.handling == FDL_TO_MAIN && !fdl_box_is_free_isr()) {
         fdl_plan.handling = FDL_ANSWER_ONLY;
-        return FDL_RR;
+        fdl_plan.refusal = FDL_RR;
     }
-    return fdl_plan.result;
 }
 
-static void answer_isr(void) IN_ISR
+/* Not from a reply. */
+static void plain_isr(void) IN_ISR
 {
-    const uint8_t result = settle_isr();
-
-    fdl_plan.stage = FDL_PLANNED;
-    fdl_plan.refusal = FDL_OK;
     fdl_plan.is = 0;
     fdl_plan.late = false;
-    phy_tx.len = 0;
-    if (fdl_req.service == FDL_SDN)
-        return;
-    if (result != FDL_OK) {
-        fdl_req.reply = 0;
-        refuse_isr(result);
-    } else if (fdl_req.reply) {
-        if (!fdl_plan.same || fdl_req.reply != fdl_plan.row_reply)
-            readdress_isr();
-        reply_isr();
+    fdl_req.reply = 0;
+    if (fdl_req.service == FDL_SDN) {
+        fdl_plan.refusal = FDL_OK;
+        phy_tx.len = 0;
+    } else if (fdl_plan.refusal) {
+        fdl_tx_fixed_isr(fdl_plan.refusal);
     } else if (fdl_req.service == FDL_NUMBERLESS) {
         fdl_tx_status_isr();
     } else {
@@ -188,9 +166,17 @@ static void answer_isr(void) IN_ISR
     }
 }
 
+static void answer_isr(void) IN_ISR
+{
+    settle_isr();
+    if (fdl_req.reply && !fdl_plan.refusal)
+        reply_isr();
+    else
+        plain_isr();
+}
+
 static void plan_isr(void) IN_ISR
 {
-    fdl_plan.same = false;
     fdl_plan.row_reply = 0;
     fdl_plan.row_handling = FDL_ANSWER_ONLY;
     if (fdl_req.service == FDL_NUMBERLESS)
@@ -223,35 +209,35 @@ static void read_header_isr(void) IN_ISR
         fdl_req.service = 0;
 }
 
-/* [DAE] [SAE] */
+/* [DAE] [SAE], both as a rule. */
 static void read_saps_isr(void) IN_ISR
 {
-    uint8_t sap = fdl_header.more[0];
-
-    if (fdl_header.da & FDL_ADDRESS_EXT) {
-        fdl_req.dsap = sap;
-        if (sap & EXT_UNKNOWN)
+    if (fdl_header.da & fdl_header.sa & FDL_ADDRESS_EXT) {
+        fdl_req.dsap = fdl_header.more[0];
+        fdl_req.ssap = fdl_header.more[1];
+        fdl_req.len = (uint8_t)(fdl_req.len - 2u);
+        if ((fdl_header.more[0] | fdl_header.more[1]) & EXT_UNKNOWN)
             fdl_req.service = 0;
+    } else {
+        if (fdl_header.da & FDL_ADDRESS_EXT)
+            fdl_req.dsap = fdl_header.more[0];
+        else
+            fdl_req.ssap = fdl_header.more[0];
         fdl_req.len--;
-        sap = fdl_header.more[1];
-    }
-    if (fdl_header.sa & FDL_ADDRESS_EXT) {
-        fdl_req.ssap = sap;
-        if (sap & EXT_UNKNOWN)
+        if (fdl_header.more[0] & EXT_UNKNOWN)
             fdl_req.service = 0;
-        fdl_req.len--;
     }
     if (fdl_req.len > FDL_LE_MAX) /* below 0: the SAPs are not there */
         fdl_req.service = 0;
 }
 
-/* All is known. A plan is good for the next time, too, if the reply that belongs to it has been addressed now. */
+/* All is known. */
 static void make_isr(void) IN_ISR
 {
     if (fdl_req.service == 0)
         return;
     plan_isr();
-    if (!fdl_req.sd3 && fdl_req.reply == fdl_plan.row_reply)
+    if (!fdl_req.sd3)
         fdl_plan.made = fdl_header.len;
 }
 
@@ -297,14 +283,15 @@ bool fdl_header_isr(void) IN_ISR
 void fdl_saps_isr(void) IN_ISR
 {
     const uint8_t XDATA *more = fdl_rx_buf + (FDL_BODY + 3u);
-    const uint8_t first = *more++;
-    const uint8_t second = *more;
+    const uint8_t first = more[0];
+    const uint8_t second = more[1];
 
     if (fdl_plan.same) {
         if (first == fdl_header.more[0] && second == fdl_header.more[1]) {
             answer_isr();
             return;
         }
+        fdl_plan.same = false;
         fdl_plan.made = 0;
         read_header_isr();
     }

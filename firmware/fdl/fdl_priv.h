@@ -65,8 +65,7 @@ void fdl_tx_fixed_isr(uint8_t function) IN_ISR;    /* SD1                       
 void fdl_tx_status_isr(void) IN_ISR;               /* SD1: OK                                                   */
 void fdl_tx_keep_isr(void) IN_ISR;                 /* the SD1 built last is kept: the next one goes elsewhere   */
 
-/* Put the frame that answers fdl_req into a room, around an L_sdu that fits, and the room into phy_tx. Where there is
- * a frame already, only DA SA FC are written: a quarter of the time. */
+/* The same in a room: build the frame around its L_sdu, which fits; phy_tx says already where it goes. */
 void fdl_tx_frame_isr(struct fdl_room PAGED *room) IN_ISR;
 
 /* ---- fdl_sap: service access points ---- */

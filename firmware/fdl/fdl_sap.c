@@ -35,6 +35,9 @@ void fdl_sap_reset(void)
     fdl_rows[NO_ROW].services = 0;
     fdl_reply_init(&ident, ident_rooms[0], IDENT_MAX, FDL_SAP_NIL);
     fdl_reply_init(&lsap, lsap_rooms[0], LSAP_LEN, FDL_SAP_NIL);
+    lsap_rooms[0][0] = LSAP_LEN;
+    lsap_rooms[0][FDL_ROOM_HEAD + LSAP_LEN + 1u] = FDL_ED;
+    lsap.is = FDL_VALID;
 }
 
 struct fdl_sap PAGED *fdl_sap_row_isr(uint8_t sap) IN_ISR
@@ -110,7 +113,7 @@ void fdl_reply_init(struct fdl_reply PAGED *reply, uint8_t XDATA *rooms, uint8_t
 
     for (i = 0; i < 3; i++) {
         reply->rooms[i].octets = rooms;
-        reply->rooms[i].frame_len = 0;
+        reply->rooms[i].head = 0;
         rooms += FDL_ROOM(max);
     }
     reply->sent = &reply->rooms[0];
@@ -118,8 +121,7 @@ void fdl_reply_init(struct fdl_reply PAGED *reply, uint8_t XDATA *rooms, uint8_t
     reply->spare = &reply->rooms[2];
     reply->max = max;
     reply->is = 0;
-    reply->dsap = sap;
-    reply->ssap = sap == FDL_SAP_NIL ? FDL_SAP_NIL : SSAP_OF_MASTERS;
+    reply->sap = sap;
 }
 
 static uint8_t XDATA *HOT to;
@@ -139,43 +141,43 @@ static void copy(uint8_t n)
         put(*from++);
 }
 
-/* DA SA FC, for who asked last: for this reply; or where nobody has, for any. */
-static void put_header(struct fdl_reply PAGED *reply, uint8_t dsap, uint8_t ssap)
+/* DA SA FC DAE SAE where nobody has asked for this reply, for who asked last for any. */
+static void put_header(uint8_t sap)
 {
-    if (reply->sent->frame_len) {
-        copy(3);
-        return;
-    }
-    put(ssap == FDL_SAP_NIL ? fdl_req.sa : fdl_req.sa | FDL_ADDRESS_EXT);
-    put(dsap == FDL_SAP_NIL ? fdl_ts : fdl_ts | FDL_ADDRESS_EXT);
+    const uint8_t ext = sap == FDL_SAP_NIL ? 0u : FDL_ADDRESS_EXT;
+
+    put(fdl_req.sa | ext);
+    put(fdl_ts | ext);
     put(FDL_DL);
+    if (ext) {
+        put(SSAP_OF_MASTERS);
+        put(sap);
+    }
 }
 
-/* The L_sdu in the spare room, with the frame around it -> frame_len, 0: none. */
-static uint8_t write_spare(struct fdl_reply PAGED *reply, const uint8_t XDATA *lsdu, uint8_t len)
+/* The L_sdu in the spare room, with the frame around it: for who asked last. Where somebody else asks meanwhile, its head
+ * may be a mixture of both, with the right FCS. */
+static void write_spare(struct fdl_reply PAGED *reply, const uint8_t XDATA *lsdu, uint8_t len)
 {
-    const uint8_t dsap = reply->dsap;
-    const uint8_t ssap = reply->ssap;
-    uint8_t le = (uint8_t)(len + 3u);
-    uint8_t head;
+    const uint8_t asked = reply->sent->head;
+    uint8_t head = asked;
+    uint8_t le;
 
-    if (ssap != FDL_SAP_NIL)
-        le++;
-    if (dsap != FDL_SAP_NIL)
-        le++;
-    head = (uint8_t)(FDL_ROOM_HEAD + len - le);
-    from = reply->sent->octets + head;
-    to = room->octets + head - 4u;
+    if (!asked)
+        head = reply->sap == FDL_SAP_NIL ? 3u : 5u;
+    le = (uint8_t)(len + head);
+    to = room->octets + (uint8_t)(FDL_ROOM_HEAD - 4u - head);
     put(FDL_SD2);
     put(le);
     put(le);
     put(FDL_SD2);
     sum = 0;
-    put_header(reply, dsap, ssap);
-    if (ssap != FDL_SAP_NIL)
-        put(ssap);
-    if (dsap != FDL_SAP_NIL)
-        put(dsap);
+    if (asked) {
+        from = reply->sent->octets + (uint8_t)(FDL_ROOM_HEAD - head);
+        copy(head);
+    } else {
+        put_header(reply->sap);
+    }
     room->octets[1] = sum; /* not kept in a local: SDCC takes `sum` itself for its copy, over the call */
     from = lsdu;
     copy(len);
@@ -184,25 +186,17 @@ static uint8_t write_spare(struct fdl_reply PAGED *reply, const uint8_t XDATA *l
     to = room->octets;
     to[0] = len;
     to[1] = (uint8_t)(sum - to[1]);
-    return len == 0 || le > FDL_LE_MAX || (dsap & FDL_AS_SD3) ? 0u : (uint8_t)(le + 6u);
+    room->head = len == 0 || le > FDL_LE_MAX ? 0u : head;
 }
-
-/* Where other SAPs are asked meanwhile, frame_len of all rooms is 0 afterwards; where somebody else asks, DA SA FC may be a
- * mixture. */
-#define BEING_WRITTEN 1u
 
 void fdl_reply_write(struct fdl_reply PAGED *reply, const uint8_t XDATA *lsdu, uint8_t len, uint8_t how)
 {
-    uint8_t frame_len;
     uint8_t irq;
 
     room = reply->spare;
-    room->frame_len = BEING_WRITTEN;
-    frame_len = write_spare(reply, lsdu, len);
+    write_spare(reply, lsdu, len);
     irq = hal_irq_save();
     fdl_turn_sent_isr();
-    if (room->frame_len)
-        room->frame_len = frame_len;
     reply->spare = reply->ready;
     reply->ready = room;
     reply->is = (uint8_t)((reply->is & ~FDL_SINGLE) | FDL_FRESH | FDL_VALID | (how & FDL_SINGLE));
@@ -261,31 +255,26 @@ struct fdl_reply PAGED *fdl_ident_reply_isr(void) IN_ISR
 #define TYPE_SRD  3u
 #define TYPE_CSRD 5u
 
-static IDATA uint8_t offered; /* services of the SAP asked about */
-
-static uint8_t role_isr(uint8_t service) IN_ISR
-{
-    return offered & service ? ROLE_RESPONDER : ROLE_NONE;
-}
-
 /* Built where the answer will stand: lsap is never updated, so it is always its first room that is sent. */
 struct fdl_reply PAGED *fdl_lsap_reply_isr(void) IN_ISR
 {
-    const struct fdl_sap PAGED *row = fdl_sap_row_isr(fdl_req.dsap);
-    uint8_t XDATA *lsdu = &lsap_rooms[0][FDL_ROOM_HEAD];
+    const struct fdl_sap PAGED *row = &fdl_rows[fdl_row_of[fdl_req.dsap]];
+    const uint8_t services = row->services;
+    const uint8_t access = row->access;
+    const uint8_t sda = services & FDL_SDA ? ROLE_RESPONDER | TYPE_SDA : ROLE_NONE | TYPE_SDA;
+    const uint8_t sdn = services & FDL_SDN ? ROLE_RESPONDER | TYPE_SDN : ROLE_NONE | TYPE_SDN;
+    const uint8_t srd = services & FDL_SRD ? ROLE_RESPONDER | TYPE_SRD : ROLE_NONE | TYPE_SRD;
+    const uint8_t csrd = (uint8_t)(srd + (TYPE_CSRD - TYPE_SRD));
 
-    offered = row->services;
-    if (!offered)
+    if (!services)
         return 0;
-    lsdu[0] = row->access;
-    lsdu[1] = 0;
-    lsdu[2] = TYPE_SDA | role_isr(FDL_SDA);
-    lsdu[3] = TYPE_SDN | role_isr(FDL_SDN);
-    lsdu[4] = TYPE_SRD | role_isr(FDL_SRD);
-    lsdu[5] = TYPE_CSRD | role_isr(FDL_SRD);
-    lsap_rooms[0][0] = LSAP_LEN;
-    lsap_rooms[0][1] = (uint8_t)(lsdu[0] + lsdu[2] + lsdu[3] + lsdu[4] + lsdu[5]);
-    lsap.rooms[0].frame_len = 0;
-    lsap.is = FDL_VALID;
+    lsap_rooms[0][1] = (uint8_t)(access + sda + sdn + srd + csrd);
+    lsap_rooms[0][FDL_ROOM_HEAD] = access;
+    lsap_rooms[0][FDL_ROOM_HEAD + 1u] = 0;
+    lsap_rooms[0][FDL_ROOM_HEAD + 2u] = sda;
+    lsap_rooms[0][FDL_ROOM_HEAD + 3u] = sdn;
+    lsap_rooms[0][FDL_ROOM_HEAD + 4u] = srd;
+    lsap_rooms[0][FDL_ROOM_HEAD + 5u] = csrd;
+    lsap.rooms[0].head = 0;
     return &lsap;
 }

@@ -1,11 +1,10 @@
 /* FDL answers: a frame is completed around the data that already stand in a reply's room.
  *
- *   room   | SD LE LEr SD DA SA FC DAE SAE | L_sdu ......... | FCS ED |
- *          |<------ FDL_ROOM_HEAD -------->|
+ *   room   | length sum | SD LE LEr SD DA SA FC DAE SAE | L_sdu ......... | FCS ED |
+ *          |<------------- FDL_ROOM_HEAD ------------->|
  *
- * The header grows from the L_sdu towards the front, so that a frame without SAP octets, or an SD3, starts later
- * in the same room. At most nine octets are written before and two behind; the data are never moved and their sum
- * is known.
+ * The header ends where the L_sdu begins: a frame without SAP octets, or an SD3, starts later in the same room. At most nine
+ * octets are written before and FCS behind; the data are never moved and their sum is known, and ED stands there.
  *
  * Source   EN 50170-2 part 4, 4.7.1; answers of the responder part 4, 4.1.3; spec A3
  */
@@ -17,30 +16,22 @@ static uint8_t XDATA sd1[2][6];
 static IDATA uint8_t kept;
 static uint8_t XDATA short_ack[1];
 
-/* By name and in internal RAM, not as arguments: see struct fdl_header. */
-static uint8_t XDATA *HOT at;
-static HOT uint8_t sum;
-static HOT uint8_t le;
-
-static void put_isr(uint8_t octet) IN_ISR
-{
-    *at++ = octet;
-    sum = (uint8_t)(sum + octet);
-}
+static HOT uint8_t sum; /* in internal RAM: see struct fdl_header */
 
 /* Addresses come back exchanged, without extension. */
 void fdl_tx_fixed_isr(uint8_t function) IN_ISR
 {
-    at = kept ? sd1[0] : sd1[1];
+    uint8_t XDATA *at = kept ? sd1[0] : sd1[1];
+    const uint8_t da = fdl_header.da & 0x7Fu;
+
     phy_tx.at = at;
     phy_tx.len = 6;
-    put_isr(FDL_SD1);
-    sum = 0;
-    put_isr(fdl_req.sa);
-    put_isr(fdl_header.da & 0x7Fu);
-    put_isr(function);
-    put_isr(sum);
-    put_isr(FDL_ED);
+    at[0] = FDL_SD1;
+    at[1] = fdl_req.sa;
+    at[2] = da;
+    at[3] = function;
+    at[4] = (uint8_t)(fdl_req.sa + da + function);
+    at[5] = FDL_ED;
 }
 
 /* In a room of its own, at a known place: FDL status comes in the shortest of all telegrams. */
@@ -107,64 +98,45 @@ void fdl_reply_priority_isr(struct fdl_reply PAGED *reply, uint8_t priority) IN_
     fdl_replan_isr(reply);
 }
 
-/* The requester's octets come back exchanged: its SA is our DA, with its extension bit, its SSAP our DAE. SD2, or SD3
- * where it was asked so and fits; that is not kept. */
-static void build_isr(struct fdl_room PAGED *room) IN_ISR
+/* Where it was asked so, a frame of the right length; it is not kept. */
+static void as_sd3_isr(struct fdl_room PAGED *room) IN_ISR
+{
+    room->head = 0;
+    if (phy_tx.len != 3u + FDL_SD3_DU + 6u)
+        return;
+    phy_tx.at += 3;
+    phy_tx.len = 3u + FDL_SD3_DU + 3u;
+    *(uint8_t XDATA *)phy_tx.at = FDL_SD3;
+}
+
+/* The requester's octets come back exchanged: its SA is our DA, with its extension bit, its SSAP our DAE. */
+void fdl_tx_frame_isr(struct fdl_room PAGED *room) IN_ISR
 {
     const uint8_t fc = FDL_DL | (fdl_plan.is & FDL_HIGH);
+    const uint8_t le = (uint8_t)(phy_tx.len - 6u);
+    const uint8_t head = (uint8_t)(fdl_header.len - fdl_req.len);
     uint8_t XDATA *at = room->octets;
 
-    le = (uint8_t)(fdl_header.len - fdl_req.len + at[0]);
-    phy_tx.len = (uint8_t)(le + 6u);
-    if (!fdl_req.sd3)
-        room->frame_len = phy_tx.len;
+    room->head = head;
     sum = (uint8_t)(at[1] + fdl_header.sa + fdl_header.da + fc);
-    at += (uint8_t)(FDL_ROOM(at[0]) - phy_tx.len);
-    phy_tx.at = at;
+    at = (uint8_t XDATA *)phy_tx.at;
     at[0] = FDL_SD2;
     at[1] = le;
     at[2] = le;
     at[3] = FDL_SD2;
-    if (fdl_req.sd3 && le == 3u + FDL_SD3_DU) {
-        at[3] = FDL_SD3;
-        phy_tx.at += 3;
-        phy_tx.len = 3u + FDL_SD3_DU + 3u;
-    }
     at += 4;
     at[0] = fdl_header.sa;
     at[1] = fdl_header.da;
     at[2] = fc;
-    at += 3;
-    if (fdl_header.sa & FDL_ADDRESS_EXT) {
-        *at++ = fdl_req.ssap;
-        sum = (uint8_t)(sum + fdl_req.ssap);
+    if (head == 5u) {
+        at[3] = fdl_header.more[1];
+        at[4] = fdl_header.more[0];
+        sum = (uint8_t)(sum + fdl_header.more[1] + fdl_header.more[0]);
+    } else if (head == 4u) {
+        at[3] = fdl_header.more[0];
+        sum = (uint8_t)(sum + fdl_header.more[0]);
     }
-    if (fdl_header.da & FDL_ADDRESS_EXT) {
-        *at++ = fdl_req.dsap;
-        sum = (uint8_t)(sum + fdl_req.dsap);
-    }
-    at += room->octets[0];
-    at[0] = sum;
-    at[1] = FDL_ED;
-}
-
-void fdl_tx_frame_isr(struct fdl_room PAGED *room) IN_ISR
-{
-    const uint8_t fc = FDL_DL | (fdl_plan.is & FDL_HIGH);
-    uint8_t XDATA *to;
-
-    phy_tx.len = room->frame_len;
-    if (!phy_tx.len) {
-        build_isr(room);
-        return;
-    }
-    to = room->octets + (uint8_t)(FDL_ROOM_HEAD + fdl_req.len - fdl_header.len);
-    sum = (uint8_t)(fdl_header.sa - to[0]); /* what FCS grows by */
-    to[0] = fdl_header.sa;
-    sum = (uint8_t)(sum + fdl_header.da - to[1]);
-    to[1] = fdl_header.da;
-    sum = (uint8_t)(sum + fc - to[2]);
-    to[2] = fc;
-    to += (uint8_t)(phy_tx.len - 6u);
-    *to = (uint8_t)(*to + sum);
+    at[le] = sum;
+    if (fdl_req.sd3)
+        as_sd3_isr(room);
 }
