@@ -75,8 +75,8 @@ static void room_isr(struct fdl_room PAGED *room) IN_ISR
     phy_tx.at = at;
     at += 4;
     if (room->head != (head | fdl_req.sd3) || at[0] != fdl_header.sa || at[1] != fdl_header.da || at[2] != fc ||
-        (head == 4u && at[3] != fdl_header.more[0]) ||
-        (head == 5u && (at[3] != fdl_header.more[1] || at[4] != fdl_header.more[0])))
+        (head == 5u && (at[3] != fdl_header.more[1] || at[4] != fdl_header.more[0])) ||
+        (head == 4u && at[3] != fdl_header.more[0]))
         no_frame_isr(room);
 }
 
@@ -212,22 +212,21 @@ static void read_header_isr(void) IN_ISR
 /* [DAE] [SAE], both as a rule. */
 static void read_saps_isr(void) IN_ISR
 {
+    fdl_req.dsap = fdl_header.more[0];
+    fdl_req.ssap = fdl_header.more[1];
+    fdl_req.len = (uint8_t)(fdl_header.len - 5u);
     if (fdl_header.da & fdl_header.sa & FDL_ADDRESS_EXT) {
-        fdl_req.dsap = fdl_header.more[0];
-        fdl_req.ssap = fdl_header.more[1];
-        fdl_req.len = (uint8_t)(fdl_req.len - 2u);
-        if ((fdl_header.more[0] | fdl_header.more[1]) & EXT_UNKNOWN)
+        if (((fdl_header.more[0] | fdl_header.more[1]) & EXT_UNKNOWN) || fdl_header.len < 5u)
             fdl_req.service = 0;
-    } else {
-        if (fdl_header.da & FDL_ADDRESS_EXT)
-            fdl_req.dsap = fdl_header.more[0];
-        else
-            fdl_req.ssap = fdl_header.more[0];
-        fdl_req.len--;
-        if (fdl_header.more[0] & EXT_UNKNOWN)
-            fdl_req.service = 0;
+        return;
     }
-    if (fdl_req.len > FDL_LE_MAX) /* below 0: the SAPs are not there */
+    fdl_req.len++;
+    fdl_req.ssap = FDL_SAP_NIL;
+    if (fdl_header.sa & FDL_ADDRESS_EXT) {
+        fdl_req.ssap = fdl_header.more[0];
+        fdl_req.dsap = FDL_SAP_NIL;
+    }
+    if (fdl_header.more[0] & EXT_UNKNOWN)
         fdl_req.service = 0;
 }
 
@@ -293,7 +292,6 @@ void fdl_saps_isr(void) IN_ISR
         }
         fdl_plan.same = false;
         fdl_plan.made = 0;
-        read_header_isr();
     }
     fdl_header.more[0] = first;
     fdl_header.more[1] = second;
