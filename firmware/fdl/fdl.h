@@ -176,7 +176,7 @@ enum fdl_handling {
 
 struct fdl_sap {
     uint8_t access;   /* 0..126, or FDL_ALL                            */
-    uint8_t services; /* FDL_SDA | FDL_SDN | FDL_SRD                   */
+    uint8_t services; /* FDL_SDA | FDL_SDN | FDL_SRD, at least one     */
     uint8_t max_len;  /* longest L_sdu of a request; longer: RR        */
     uint8_t handling; /* enum fdl_handling                             */
     struct fdl_reply PAGED *reply; /* or 0: an SRD is answered SC      */

@@ -66,7 +66,6 @@ static void no_frame_isr(struct fdl_room PAGED *room) IN_ISR
 /* The frame that stands there, if it is one and the right one. */
 static void room_isr(struct fdl_room PAGED *room) IN_ISR
 {
-    const uint8_t fc = FDL_DL | (fdl_plan.is & FDL_HIGH);
     const uint8_t head = (uint8_t)(fdl_header.len - fdl_req.len);
     const uint8_t XDATA *at = room->octets;
 
@@ -74,13 +73,14 @@ static void room_isr(struct fdl_room PAGED *room) IN_ISR
     at += (uint8_t)(FDL_ROOM_HEAD - 4u - head);
     phy_tx.at = at;
     at += 4;
-    if (room->head != (head | fdl_req.sd3) || at[0] != fdl_header.sa || at[1] != fdl_header.da || at[2] != fc ||
+    if (room->head != (head | fdl_req.sd3) || at[0] != fdl_header.sa || at[1] != fdl_header.da ||
+        at[2] != (FDL_DL | (fdl_plan.is & FDL_HIGH)) ||
         (head == 5u && (at[3] != fdl_header.more[1] || at[4] != fdl_header.more[0])) ||
         (head == 4u && at[3] != fdl_header.more[0]))
         no_frame_isr(room);
 }
 
-/* An SRD, Ident or LSAP status is answered from fdl_req.reply. */
+/* An SRD or Ident is answered from fdl_req.reply. */
 static void reply_isr(void) IN_ISR
 {
     struct fdl_reply PAGED *reply = fdl_req.reply;
@@ -105,7 +105,7 @@ static void reply_isr(void) IN_ISR
 /* What the SAP's row says -> FDL_OK or the refusal. */
 static uint8_t decide_isr(void) IN_ISR
 {
-    const struct fdl_sap PAGED *row = &fdl_rows[fdl_row_of[fdl_req.dsap]];
+    const struct fdl_sap PAGED *row = fdl_row_of[fdl_req.dsap];
 
     if (!(row->services & fdl_req.service))
         return FDL_RS;
@@ -122,15 +122,13 @@ static uint8_t decide_isr(void) IN_ISR
 /* FDL status, Ident and LSAP status: not numbered, they leave the FCB alone. */
 static uint8_t status_isr(void) IN_ISR
 {
-    uint8_t function = fdl_header.fc & FDL_FC_FUNCTION;
+    const uint8_t function = fdl_header.fc & FDL_FC_FUNCTION;
 
-    if (function == FDL_STATUS)
-        return FDL_OK;
+    if (function == FDL_LSAP_STATUS)
+        return fdl_lsap_isr();
     if (function == FDL_IDENT)
         fdl_plan.row_reply = fdl_ident_reply_isr();
-    else
-        fdl_plan.row_reply = fdl_lsap_reply_isr();
-    return fdl_plan.row_reply ? FDL_OK : FDL_RS;
+    return FDL_OK;
 }
 
 /* The rest of the decision: what may be another one each time. */
@@ -159,10 +157,12 @@ static void plain_isr(void) IN_ISR
         phy_tx.len = 0;
     } else if (fdl_plan.refusal) {
         fdl_tx_fixed_isr(fdl_plan.refusal);
-    } else if (fdl_req.service == FDL_NUMBERLESS) {
-        fdl_tx_status_isr();
-    } else {
+    } else if (fdl_req.service != FDL_NUMBERLESS) {
         fdl_tx_short_isr();
+    } else if ((fdl_header.fc & FDL_FC_FUNCTION) == FDL_LSAP_STATUS) {
+        fdl_tx_lsap_isr();
+    } else {
+        fdl_tx_status_isr();
     }
 }
 

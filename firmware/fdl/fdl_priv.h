@@ -72,12 +72,15 @@ void fdl_tx_frame_isr(struct fdl_room PAGED *room) IN_ISR;
 
 void fdl_sap_reset(void);
 
-extern struct fdl_sap PAGED fdl_rows[FDL_SAPS + 1u];
-extern uint8_t XDATA fdl_row_of[FDL_SAP_NUMBERS]; /* SAP number -> index of fdl_rows */
+/* SAP number -> its row; of all that are not active, a row without services. */
+extern struct fdl_sap PAGED *XDATA fdl_row_of[FDL_SAP_NUMBERS];
 
-/* Update buffers that answer Ident, and LSAP status of SAP fdl_req.dsap (0: not active). */
+/* Update buffer that answers Ident. */
 struct fdl_reply PAGED *fdl_ident_reply_isr(void) IN_ISR;
-struct fdl_reply PAGED *fdl_lsap_reply_isr(void) IN_ISR;
+
+/* LSAP status of SAP fdl_req.dsap -> FDL_OK, or FDL_RS: it is not active. Then the frame around it, into phy_tx. */
+uint8_t fdl_lsap_isr(void) IN_ISR;
+void fdl_tx_lsap_isr(void) IN_ISR;
 
 /* ---- fma_watch: supervision of the bus, main ---- */
 

@@ -4,13 +4,12 @@
  */
 #include "fdl/fdl_priv.h"
 #include "hal/hal.h"
+#include "phy_uart/phy_uart.h"
 
-#define NO_ROW 0u /* the row of all SAPs that are not active: without services */
-
-struct fdl_sap PAGED fdl_rows[FDL_SAPS + 1u];
-uint8_t XDATA fdl_row_of[FDL_SAP_NUMBERS];
-static uint8_t XDATA owner_of[FDL_SAPS + 1u]; /* row -> SAP number */
-#define NOBODY 0xFFu
+/* A row without services is free; the first one is that of all SAPs which are not active. */
+static struct fdl_sap PAGED rows[FDL_SAPS + 1u];
+struct fdl_sap PAGED *XDATA fdl_row_of[FDL_SAP_NUMBERS];
+#define NO_ROW (&rows[0])
 
 #define SSAP_OF_MASTERS 62u /* all services of DP are asked from it: spec A6 */
 
@@ -18,9 +17,9 @@ static uint8_t XDATA owner_of[FDL_SAPS + 1u]; /* row -> SAP number */
 #define LSAP_LEN  6u  /* Access, its extension, and an octet each for SDA SDN SRD CSRD */
 
 static uint8_t XDATA ident_rooms[3][FDL_ROOM(IDENT_MAX)];
-static uint8_t XDATA lsap_rooms[3][FDL_ROOM(LSAP_LEN)];
+static uint8_t XDATA lsap_octets[FDL_ROOM(LSAP_LEN)];
 static struct fdl_reply PAGED ident;
-static struct fdl_reply PAGED lsap;
+static struct fdl_room PAGED lsap;
 
 /* ---- activation ------------------------------------------------------------------------------------------ */
 
@@ -30,19 +29,16 @@ void fdl_sap_reset(void)
 
     for (i = 0; i < FDL_SAP_NUMBERS; i++)
         fdl_row_of[i] = NO_ROW;
-    for (i = 1; i <= FDL_SAPS; i++)
-        owner_of[i] = NOBODY;
-    fdl_rows[NO_ROW].services = 0;
+    for (i = 0; i <= FDL_SAPS; i++)
+        rows[i].services = 0;
     fdl_reply_init(&ident, ident_rooms[0], IDENT_MAX, FDL_SAP_NIL);
-    fdl_reply_init(&lsap, lsap_rooms[0], LSAP_LEN, FDL_SAP_NIL);
-    lsap_rooms[0][0] = LSAP_LEN;
-    lsap_rooms[0][FDL_ROOM_HEAD + LSAP_LEN + 1u] = FDL_ED;
-    lsap.is = FDL_VALID;
+    lsap.octets = lsap_octets;
+    lsap_octets[FDL_ROOM_HEAD + LSAP_LEN + 1u] = FDL_ED;
 }
 
 struct fdl_sap PAGED *fdl_sap_row_isr(uint8_t sap) IN_ISR
 {
-    return &fdl_rows[fdl_row_of[sap]];
+    return fdl_row_of[sap];
 }
 
 static bool number_is_valid(uint8_t sap)
@@ -51,21 +47,21 @@ static bool number_is_valid(uint8_t sap)
 }
 
 /* The row a SAP has or could have, NO_ROW when there is none left. */
-static uint8_t find_row(uint8_t sap)
+static struct fdl_sap PAGED *find_row(uint8_t sap)
 {
-    uint8_t row = fdl_row_of[sap];
+    struct fdl_sap PAGED *row = fdl_row_of[sap];
 
     if (row != NO_ROW)
         return row;
-    for (row = FDL_SAPS; row != NO_ROW; row--)
-        if (owner_of[row] == NOBODY)
+    for (row = rows + FDL_SAPS; row != NO_ROW; row--)
+        if (!row->services)
             break;
     return row;
 }
 
 bool fdl_sap_set(uint8_t sap, const struct fdl_sap PAGED *how)
 {
-    uint8_t row;
+    struct fdl_sap PAGED *row;
     uint8_t irq;
     uint8_t i;
 
@@ -74,10 +70,10 @@ bool fdl_sap_set(uint8_t sap, const struct fdl_sap PAGED *how)
     row = find_row(sap);
     if (row == NO_ROW)
         return false;
+    ASSERT(how->services);
     irq = hal_irq_save();
     for (i = 0; i < sizeof *how; i++) /* SDCC's struct assignment is a library of its own */
-        ((uint8_t PAGED *)&fdl_rows[row])[i] = ((const uint8_t PAGED *)how)[i];
-    owner_of[row] = sap;
+        ((uint8_t PAGED *)row)[i] = ((const uint8_t PAGED *)how)[i];
     fdl_row_of[sap] = row;
     fdl_replan_isr(0);
     hal_irq_restore(irq);
@@ -87,7 +83,7 @@ bool fdl_sap_set(uint8_t sap, const struct fdl_sap PAGED *how)
 /* A request that has been answered and not yet executed goes with its SAP. */
 bool fdl_sap_clear(uint8_t sap)
 {
-    uint8_t row;
+    struct fdl_sap PAGED *row;
     uint8_t irq;
 
     if (!number_is_valid(sap))
@@ -97,7 +93,7 @@ bool fdl_sap_clear(uint8_t sap)
         return false;
     irq = hal_irq_save();
     fdl_row_of[sap] = NO_ROW;
-    owner_of[row] = NOBODY;
+    row->services = 0;
     if (fdl_req.dsap == sap)
         fdl_plan.handling = FDL_ANSWER_ONLY;
     fdl_replan_isr(0);
@@ -255,26 +251,35 @@ struct fdl_reply PAGED *fdl_ident_reply_isr(void) IN_ISR
 #define TYPE_SRD  3u
 #define TYPE_CSRD 5u
 
-/* Built where the answer will stand: lsap is never updated, so it is always its first room that is sent. */
-struct fdl_reply PAGED *fdl_lsap_reply_isr(void) IN_ISR
+/* Made where it will be sent from, anew for each request: nobody keeps it. */
+uint8_t fdl_lsap_isr(void) IN_ISR
 {
-    const struct fdl_sap PAGED *row = &fdl_rows[fdl_row_of[fdl_req.dsap]];
-    const uint8_t services = row->services;
+    const struct fdl_sap PAGED *row = fdl_row_of[fdl_req.dsap];
     const uint8_t access = row->access;
+    const uint8_t services = row->services;
     const uint8_t sda = services & FDL_SDA ? ROLE_RESPONDER | TYPE_SDA : ROLE_NONE | TYPE_SDA;
     const uint8_t sdn = services & FDL_SDN ? ROLE_RESPONDER | TYPE_SDN : ROLE_NONE | TYPE_SDN;
     const uint8_t srd = services & FDL_SRD ? ROLE_RESPONDER | TYPE_SRD : ROLE_NONE | TYPE_SRD;
     const uint8_t csrd = (uint8_t)(srd + (TYPE_CSRD - TYPE_SRD));
 
     if (!services)
-        return 0;
-    lsap_rooms[0][1] = (uint8_t)(access + sda + sdn + srd + csrd);
-    lsap_rooms[0][FDL_ROOM_HEAD] = access;
-    lsap_rooms[0][FDL_ROOM_HEAD + 1u] = 0;
-    lsap_rooms[0][FDL_ROOM_HEAD + 2u] = sda;
-    lsap_rooms[0][FDL_ROOM_HEAD + 3u] = sdn;
-    lsap_rooms[0][FDL_ROOM_HEAD + 4u] = srd;
-    lsap_rooms[0][FDL_ROOM_HEAD + 5u] = csrd;
-    lsap.rooms[0].head = 0;
-    return &lsap;
+        return FDL_RS;
+    lsap_octets[1] = (uint8_t)(access + sda + sdn + srd + csrd);
+    lsap_octets[FDL_ROOM_HEAD] = access;
+    lsap_octets[FDL_ROOM_HEAD + 1u] = 0;
+    lsap_octets[FDL_ROOM_HEAD + 2u] = sda;
+    lsap_octets[FDL_ROOM_HEAD + 3u] = sdn;
+    lsap_octets[FDL_ROOM_HEAD + 4u] = srd;
+    lsap_octets[FDL_ROOM_HEAD + 5u] = csrd;
+    return FDL_OK;
+}
+
+void fdl_tx_lsap_isr(void) IN_ISR
+{
+    const uint8_t head = (uint8_t)(fdl_header.len - fdl_req.len);
+
+    lsap.head = 0;
+    phy_tx.at = lsap_octets + (uint8_t)(FDL_ROOM_HEAD - 4u - head);
+    phy_tx.len = (uint8_t)(head + LSAP_LEN + 6u);
+    fdl_tx_frame_isr(&lsap);
 }

@@ -117,13 +117,15 @@ void fdl_tx_frame_isr(struct fdl_room PAGED *room) IN_ISR
     const uint8_t head = (uint8_t)(fdl_header.len - fdl_req.len);
     uint8_t XDATA *at = room->octets;
 
-    room->head = head;
     sum = (uint8_t)(at[1] + fdl_header.sa + fdl_header.da + fc);
     at = (uint8_t XDATA *)phy_tx.at;
-    at[0] = FDL_SD2;
-    at[1] = le;
-    at[2] = le;
-    at[3] = FDL_SD2;
+    if (room->head != head) {
+        room->head = head;
+        at[0] = FDL_SD2;
+        at[1] = le;
+        at[2] = le;
+        at[3] = FDL_SD2;
+    }
     at += 4;
     at[0] = fdl_header.sa;
     at[1] = fdl_header.da;
