@@ -349,8 +349,9 @@ def observe(program, seed):
 def run(number, folder):
     dice = random.Random(number)
     files = [str(Path(folder) / f"{name}.asm") for name in "xy"]
+    context = dice.choice(("", "_isr", "_isr"))
     for file, text in zip(files, texts(dice)):
-        Path(file).write_text(text)
+        Path(file).write_text(re.sub(r"\b_([fctde])\b", rf"_\1{context}", text))
     before, after = (Program(files, dict.fromkeys(files, {"v", "w"})) for _ in range(2))
     tidy(after)
     after.write()

@@ -4,6 +4,7 @@
 Instructions stand between slashes. `f` is the function looked at; behind `|` stand others, each a name, a colon and its code,
 behind `||` those of another file.
 """
+import re
 import sys
 import tempfile
 from pathlib import Path
@@ -315,6 +316,15 @@ CALLED_ONCE = {
         "lcall _c / mov _h,a / ret || _c:mov a,_k / mov a,_k / ret",
         "_c = . / mov a,_k / mov _h,_k / ret"),
 }
+COPIED = {  # _f_isr, _c_isr ...
+    "small interrupt code called from several places": (
+        "lcall _c / mov _h,a / ljmp _c | _c:mov a,_p / add a,_x / inc _p / ret | _other:lcall _c / 00101$: / sjmp 00101$",
+        "; _c / mov a,_p / add a,_x / inc _p / mov _h,a / ; _c / inc _p / ret"),
+    "interrupt code that is not small": (
+        "lcall _c / mov _h,a / ljmp _c | _c:mov a,_p / " + "inc _p / " * 20 + "ret", SAME),
+    "small interrupt code called from everywhere": (
+        "lcall _c / " * 30 + "ret | _c:inc _p / inc _p / inc _p / inc _p / ret", "lcall _c / " * 29 + "ljmp _c"),
+}
 OTHER_HEAD = """
 \t.globl _c
 \t.area DSEG    (DATA)
@@ -335,7 +345,7 @@ def functions(codes):
     return "".join(f"{name}:\n" + lines_of(body) for name, _, body in named)
 
 
-def tidied(code, folder, once):
+def tidied(code, folder, once, isr):
     here, _, there = code.partition(" || ")
     first, *others = here.split(" | ")
     if others and not once:
@@ -343,22 +353,24 @@ def tidied(code, folder, once):
     files = Path(folder) / "x.asm", Path(folder) / "y.asm"
     files[0].write_text(HEAD + lines_of(first) + functions([*others, "_main:lcall _f / 00101$: / sjmp 00101$"]))
     files[1].write_text(OTHER_HEAD + "\tar0 = 0x00\n" + functions(filter(None, there.split(" | "))))
+    if isr:
+        files[0].write_text(re.sub(r"\b_(f|c|other)\b", r"_\1_isr", files[0].read_text()))
     program = Program(list(map(str, files)), {str(file): {"v", "w", "k"} for file in files})
     tidy(program)
-    function = next(f for f in program.functions if f.name == "_f")
+    function = next(f for f in program.functions if f.name in ("_f", "_f_isr"))
     lines = [" ".join(line.text.split()) for line in function.lines if line.op or ";" in line.text or " = ." in line.text or
-             line.label and line.label != "_f"]
-    return " / ".join(lines)
+             line.label and line.label != function.name]
+    return " / ".join(lines).replace("_isr", "" if isr else "_isr")
 
 
 def main():
     failed = 0
     with tempfile.TemporaryDirectory() as folder:
-        for name, (code, wanted) in {**CASES, **CALLED_ONCE}.items():
-            got, wanted = tidied(code, folder, name in CALLED_ONCE), wanted or code.split(" |")[0]
+        for name, (code, wanted) in {**CASES, **CALLED_ONCE, **COPIED}.items():
+            got, wanted = tidied(code, folder, name not in CASES, name in COPIED), wanted or code.split(" |")[0]
             failed += got != wanted
             print(f"{name}:{'PASS' if got == wanted else 'FAIL: ' + got + '     instead of ' + wanted}")
-    print(f"-----------------------\n{len(CASES) + len(CALLED_ONCE)} Tests {failed} Failures 0 Ignored")
+    print(f"-----------------------\n{len(CASES) + len(CALLED_ONCE) + len(COPIED)} Tests {failed} Failures 0 Ignored")
     return 1 if failed else 0
 
 

@@ -280,6 +280,13 @@ class Program:
             self._globals[path].add(name)
             self.parts[path][0].insert(0, Line(f"\t.globl {name}"))
 
+    def copied(self, function, into):
+        """It stands in another one, too, which calls it no more."""
+        for others in self._named.values():
+            if function in others:
+                others.add(into)
+        self._named[function.name].discard(into)
+
     def moved(self, function, into):
         """It stands in another one and is a function no more. -> What says where, if it can be seen from outside: a symbol."""
         path, name, parts = function.path, function.name, self.parts[function.path]
