@@ -28,8 +28,8 @@ static IDATA uint8_t in_stock;
 /* Single producer (interrupt: fdl_box_in), single consumer (main loop: fdl_box_out); a box belongs to the main loop from the
  * moment fdl_box_in has passed it until fdl_box_out has. One octet each, so neither side can see half an index. */
 static struct box XDATA boxes[FDL_BOXES + 1u];
-volatile IDATA uint8_t fdl_box_in;
-volatile IDATA uint8_t fdl_box_out;
+volatile HOT uint8_t fdl_box_in;
+volatile HOT uint8_t fdl_box_out;
 
 /* ---- buffers --------------------------------------------------------------------------------------------- */
 

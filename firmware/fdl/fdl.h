@@ -243,8 +243,8 @@ uint8_t fdl_ask_isr(void) IN_ISR;
 void fdl_ind_isr(void) IN_ISR;
 
 /* Indications that the main loop has not dealt with yet wait in boxes: there are none where these two are equal. isr. */
-extern volatile IDATA uint8_t fdl_box_in;
-extern volatile IDATA uint8_t fdl_box_out;
+extern volatile HOT uint8_t fdl_box_in;
+extern volatile HOT uint8_t fdl_box_out;
 
 /* Is there one for SAP dsap or one of a higher number, from the station of fdl_req? isr. */
 bool fdl_waiting_isr(uint8_t dsap) IN_ISR;

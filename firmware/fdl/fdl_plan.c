@@ -72,12 +72,14 @@ static void room_isr(struct fdl_room PAGED *room) IN_ISR
     phy_tx.len = (uint8_t)(at[0] + head + 6u);
     at += (uint8_t)(FDL_ROOM_HEAD - 4u - head);
     phy_tx.at = at;
-    at += 4;
-    if (room->head != (head | fdl_req.sd3) || at[0] != fdl_header.sa || at[1] != fdl_header.da ||
-        at[2] != (FDL_DL | (fdl_plan.is & FDL_HIGH)) ||
-        (head == 5u && (at[3] != fdl_header.more[1] || at[4] != fdl_header.more[0])) ||
-        (head == 4u && at[3] != fdl_header.more[0]))
-        no_frame_isr(room);
+    if (room->head == (head | fdl_req.sd3)) {
+        at += 4;
+        if (at[0] == fdl_header.sa && at[1] == fdl_header.da && at[2] == (FDL_DL | (fdl_plan.is & FDL_HIGH)) &&
+            (head != 5u || (at[3] == fdl_header.more[1] && at[4] == fdl_header.more[0])) &&
+            (head != 4u || at[3] == fdl_header.more[0]))
+            return;
+    }
+    no_frame_isr(room);
 }
 
 /* An SRD or Ident is answered from fdl_req.reply. */
@@ -134,12 +136,16 @@ static uint8_t status_isr(void) IN_ISR
 /* The rest of the decision: what may be another one each time. */
 static void settle_isr(void) IN_ISR
 {
+    uint8_t refusal;
+
     fdl_plan.stage = FDL_PLANNED;
     fdl_plan.refusal = fdl_plan.result;
     fdl_plan.handling = fdl_plan.row_handling;
     fdl_req.reply = fdl_plan.row_reply;
     if (fdl_plan.handling == FDL_TO_ISR) {
-        fdl_plan.refusal = fdl_ask_isr();
+        refusal = fdl_ask_isr();
+        if (refusal)
+            fdl_plan.refusal = refusal;
     } else if (fdl_plan.handling == FDL_TO_MAIN && !fdl_box_is_free_isr()) {
         fdl_plan.handling = FDL_ANSWER_ONLY;
         fdl_plan.refusal = FDL_RR;
