@@ -149,14 +149,14 @@ def stack(board, image):
 
 @functools.lru_cache(None)
 def instructions(board):
-    """-> {"octet_instructions": of an interrupt that only stores one, "chunk_instructions": of one that parses a header}"""
+    """-> {"octet_instructions": of an interrupt that only stores one, "chunk_instructions": of one that looks at SD and DA}"""
     seen = list(interrupts(board, "fieldling-dp", REQUESTS[board]))
     one = [(n, entered) for n, entered in seen if entered.count("line_octet_isr") == 1]
     alone = [(n, entered) for n, entered in one if "line_uart_timer_isr" not in entered]  # nor a timer right behind it
     store = [n for n, entered in alone if "phy_chunk_ind_isr" not in entered and "hal_send" not in entered]
     chunk = [n for n, entered in one if "phy_chunk_ind_isr" in entered and "fdl_telegram_isr" not in entered]
     end = [n for n, entered in one if "fdl_telegram_isr" in entered]
-    expect(f"{board}: octets seen", (len(one) - len(chunk) - len(end), len(chunk), len(end)), (3 * TIMES, 2 * TIMES, TIMES))
+    expect(f"{board}: octets seen", (len(one) - len(chunk) - len(end), len(chunk), len(end)), (4 * TIMES, TIMES, TIMES))
     expect(f"{board}: octets alone", len(store) > TIMES, True)
     return {"octet_instructions": max(store), "chunk_instructions": max(chunk), "end_instructions": max(end)}
 

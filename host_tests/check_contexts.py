@@ -28,7 +28,7 @@ import sys
 from asm51 import Program
 
 # Services of the port that interrupt code may call and main may call only under the lock (hal.h).
-ALLOWED = {"hal_silence", "hal_send"}
+ALLOWED = {"hal_silence", "hal_silent", "hal_send"}
 # May be called from anywhere: it does not return.
 ANYWHERE = {"hal_reset"}
 LOCK, UNLOCK = "hal_irq_save", "hal_irq_restore"

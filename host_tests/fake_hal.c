@@ -11,6 +11,7 @@ void fake_begin(void)
 
     fake.ticks = 0;
     fake.line = HAL_LINE_TIMED;
+    fake.silent_for = 0;
     fake.fastest = 12000000u;
     for (i = 0; i < HAL_NV_SIZE; i++)
         fake.nv[i] = 0xFF;
@@ -129,6 +130,12 @@ void hal_silence(hal_dur_t d) IN_ISR
     isr_service();
     fake.limit = d;
     fake.armed = d != 0;
+}
+
+bool hal_silent(hal_dur_t d) IN_ISR
+{
+    isr_service();
+    return d <= fake.silent_for;
 }
 
 void hal_send(const uint8_t XDATA *octets, uint16_t n) IN_ISR

@@ -25,6 +25,7 @@ struct fake_machine {
     /* said by the test */
     uint16_t ticks;       /* hal_ticks()                                           */
     uint8_t line;         /* kind of line: enum hal_line                           */
+    hal_dur_t silent_for; /* hal_silent() up to here [T_bit]                       */
     uint32_t fastest;     /* hal_line_open() answers HAL_LINE_NO to a faster rate  */
     uint8_t nv[HAL_NV_SIZE];
     uint8_t nv_writes;    /* that many more are stored; FAKE_NV_UNLIMITED          */

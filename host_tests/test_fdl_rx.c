@@ -36,10 +36,15 @@ static const CODE struct awaited awaits[] = {
 };
 static const CODE struct awaited *awaited;
 
+void fdl_da_isr(uint8_t da) IN_ISR
+{
+    fdl_header.da = da;
+}
+
 bool fdl_header_isr(void) IN_ISR
 {
     headers++;
-    return ((fdl_now.da | fdl_now.sa) & FDL_ADDRESS_EXT) && fdl_header.len != 3;
+    return ((fdl_header.da | fdl_rx_buf[FDL_BODY + 1]) & FDL_ADDRESS_EXT) && fdl_header.len != 3;
 }
 
 void fdl_saps_isr(void) IN_ISR

@@ -109,7 +109,7 @@ static void octets_are_gathered_with_their_sum_and_announced_when_all_are_there(
     TEST_ASSERT_EQUAL_HEX8(0x40, phy_rx.sum); /* F0 + 20 + 30 = 140H */
 }
 
-/* A head of seven octets 01..07 and, behind it, 08 are awaited, then two of any value. */
+/* A head of four octets 01..04 and, behind it, 05..08 are awaited, then two of any value. */
 static void await(void)
 {
     uint8_t i;
@@ -118,7 +118,8 @@ static void await(void)
         phy_model[PHY_MODEL - 8 + i] = (uint8_t)(i + 1);
     model = PHY_MODEL_END - 8;
     len = 10;
-    less = 3;
+    less = 6;
+    seen.chunks = 0;
     fake_silence();
 }
 
@@ -131,7 +132,7 @@ static void a_chunk_like_its_model_is_announced_when_it_is_whole(void)
     hear("F2");
     TEST_ASSERT_EQUAL(1, seen.chunks);
     TEST_ASSERT_EQUAL(0, phy_rx.left);
-    TEST_ASSERT_EQUAL(3, phy_rx.less);
+    TEST_ASSERT_EQUAL(6, phy_rx.less);
     OCTETS("01 02 03 04 05 06 07 08 F1 F2", room, 10);
     TEST_ASSERT_EQUAL_HEX8(0x07, phy_rx.sum); /* 24 + F1 + F2 = 207H */
 }
@@ -145,44 +146,67 @@ static void over(uint8_t octets, uint8_t left)
     TEST_ASSERT_TRUE(phy_rx.at == room + octets);
 }
 
-static void a_chunk_ends_with_its_second_octet_if_the_first_one_is_not_the_models(void)
+static void a_chunk_has_no_head_and_ends_with_its_second_octet_if_the_first_one_is_not_the_models(void)
 {
+    room[1] = 0xAA;
+    room[2] = 0xAA;
+    room[3] = 0xAA;
     await();
     hear("02");
     TEST_ASSERT_EQUAL(0, seen.chunks);
-    hear("02");
-    over(2, 0);
-    TEST_ASSERT_EQUAL_HEX8(0x04, phy_rx.sum);
+    hear("03");
+    over(5, 0);
+    OCTETS("02 AA AA AA 03", room, 5);
+    TEST_ASSERT_EQUAL_HEX8(0x05, phy_rx.sum);
 }
 
 static void a_chunk_ends_with_its_head_if_another_octet_of_that_is_not_the_models(void)
 {
     await();
-    hear("01 02 03 04 05 00");
+    hear("01 02 00");
     TEST_ASSERT_EQUAL(0, seen.chunks);
-    hear("07");
-    over(7, 0);
-    OCTETS("01 02 03 04 05 00 07", room, 7);
-    TEST_ASSERT_EQUAL_HEX8(0x16, phy_rx.sum);
+    hear("04");
+    over(4, 0);
+    OCTETS("01 02 00 04", room, 4);
+    TEST_ASSERT_EQUAL_HEX8(0x07, phy_rx.sum);
     await();
-    seen.chunks = 0;
-    hear("01 00 00 00 00 00");
+    hear("01 00 00");
     TEST_ASSERT_EQUAL(0, seen.chunks);
-    hear("07");
-    over(7, 0);
+    hear("04");
+    over(4, 0);
     await();
-    seen.chunks = 0;
-    hear("01 02 03 04 05 06 00");
-    over(7, 0);
+    hear("01 02 03 00");
+    over(4, 0);
 }
 
 static void a_chunk_is_over_at_once_if_an_octet_behind_its_head_is_not_the_models(void)
 {
     await();
+    hear("01 02 03 04 00");
+    over(5, 5);
+    await();
     hear("01 02 03 04 05 06 07");
     TEST_ASSERT_EQUAL(0, seen.chunks);
     hear("00");
     over(8, 2);
+}
+
+static void a_model_may_be_the_first_octet_of_a_chunk_that_is_a_head(void)
+{
+    await();
+    model = PHY_MODEL_END - 1;
+    len = 4;
+    less = 0;
+    fake_silence();
+    hear("08 02 03");
+    TEST_ASSERT_EQUAL(0, seen.chunks);
+    hear("04");
+    over(4, 0);
+    seen.chunks = 0;
+    fake_silence();
+    hear("07 02");
+    over(5, 0);
+    TEST_ASSERT_EQUAL_HEX8(0x02, room[4]);
 }
 
 static void octets_nobody_asked_for_are_dropped(void)
@@ -257,6 +281,21 @@ static void min_t_sdr_set_before_the_line_is_open_counts_once_it_is(void)
     phy_set_value(PHY_BAUD_RATE, PHY_BAUD_9K6);
     answer();
     TEST_ASSERT_EQUAL(60, fake.limit);
+}
+
+static void where_min_t_sdr_is_over_already_an_answer_leaves_at_once(void)
+{
+    fake.silent_for = 10;
+    answer();
+    TEST_ASSERT_FALSE(fake.sending);
+    fake_octet(0, 0);
+    fake.silent_for = 11;
+    answer();
+    TEST_ASSERT_TRUE(fake.sending);
+    TEST_ASSERT_FALSE(phy_rx.waiting);
+    fake_sent();
+    TEST_ASSERT_EQUAL(1, seen.sent);
+    TEST_ASSERT_EQUAL(33, fake.limit);
 }
 
 static void an_octet_before_t_sdr_is_over_cancels_the_answer(void)
@@ -509,9 +548,10 @@ int main(void)
     RUN_TEST(nothing_is_received_before_t_syn_of_silence);
     RUN_TEST(octets_are_gathered_with_their_sum_and_announced_when_all_are_there);
     RUN_TEST(a_chunk_like_its_model_is_announced_when_it_is_whole);
-    RUN_TEST(a_chunk_ends_with_its_second_octet_if_the_first_one_is_not_the_models);
+    RUN_TEST(a_chunk_has_no_head_and_ends_with_its_second_octet_if_the_first_one_is_not_the_models);
     RUN_TEST(a_chunk_ends_with_its_head_if_another_octet_of_that_is_not_the_models);
     RUN_TEST(a_chunk_is_over_at_once_if_an_octet_behind_its_head_is_not_the_models);
+    RUN_TEST(a_model_may_be_the_first_octet_of_a_chunk_that_is_a_head);
     RUN_TEST(octets_nobody_asked_for_are_dropped);
     RUN_TEST(a_deaf_receiver_hears_nothing_until_the_next_silence);
     RUN_TEST(a_faulty_octet_is_reported_with_its_flags_and_makes_the_receiver_deaf);
@@ -519,6 +559,7 @@ int main(void)
     RUN_TEST(an_answer_leaves_after_min_t_sdr_of_silence_as_it_stands);
     RUN_TEST(min_t_sdr_can_be_set_from_11_to_255_bit_times);
     RUN_TEST(min_t_sdr_set_before_the_line_is_open_counts_once_it_is);
+    RUN_TEST(where_min_t_sdr_is_over_already_an_answer_leaves_at_once);
     RUN_TEST(an_octet_before_t_sdr_is_over_cancels_the_answer);
     RUN_TEST(a_faulty_octet_cancels_the_answer_too);
     RUN_TEST(after_an_answer_a_request_needs_t_syn_of_silence_again);

@@ -89,7 +89,7 @@ void fdl_read_counters(struct fdl_counters XDATA *to);
 uint8_t fdl_heard(void);
 
 /* true: telegrams to other stations are received to their end, checked and heard (FDL_HEARD_ANY); so it is after
- * fdl_reset(). false: the receiver stops at their header, and a fault in the rest of them is not counted. Half of
+ * fdl_reset(). false: the receiver stops at their DA, and a fault in the rest of them is not counted. Half of
  * a busy bus is for others: on an 8-bit part that is half of its time. On a line that cannot show silence it has
  * no effect. main. */
 void fdl_listen(bool all);

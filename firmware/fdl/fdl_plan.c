@@ -254,26 +254,36 @@ static void number_isr(void) IN_ISR
         fdl_plan.again = fdl_header.fc & FDL_FC_FCV;
 }
 
+void fdl_da_isr(uint8_t da) IN_ISR
+{
+    fdl_plan.awaited = 0;
+    if (da != fdl_header.da) {
+        fdl_header.da = da;
+        fdl_plan.made = 0;
+    }
+    fdl_plan.same = fdl_plan.made == fdl_header.len;
+}
+
 bool fdl_header_isr(void) IN_ISR
 {
-    if (!(fdl_now.fc & FDL_FC_REQUEST))
+    const uint8_t XDATA *at = fdl_rx_buf + (FDL_BODY + 1u);
+    const uint8_t sa = *at++;
+    const uint8_t fc = *at;
+
+    if (!(fc & FDL_FC_REQUEST))
         return false;
     fdl_plan.stage = FDL_UNKNOWN;
-    fdl_plan.same = fdl_plan.made == fdl_header.len;
-    if (fdl_now.da != fdl_header.da || fdl_now.sa != fdl_header.sa ||
-        ((fdl_now.fc ^ fdl_header.fc) & (uint8_t)~(FDL_FC_FCB | FDL_FC_FCV))) {
+    if (sa != fdl_header.sa || ((fc ^ fdl_header.fc) & (uint8_t)~(FDL_FC_FCB | FDL_FC_FCV))) {
         fdl_plan.same = false;
-        fdl_header.da = fdl_now.da;
-        fdl_header.sa = fdl_now.sa;
+        fdl_header.sa = sa;
     }
-    fdl_header.fc = fdl_now.fc;
-    fdl_plan.awaited = 0;
+    fdl_header.fc = fc;
     number_isr();
     if (!fdl_plan.same) {
         fdl_plan.made = 0;
         read_header_isr();
     }
-    if ((fdl_now.da | fdl_now.sa) & FDL_ADDRESS_EXT) {
+    if ((fdl_header.da | fdl_header.sa) & FDL_ADDRESS_EXT) {
         if (fdl_header.len != 3u)
             return true;
         fdl_req.service = 0; /* and no SAPs */

@@ -29,19 +29,14 @@ extern HOT struct fdl_header fdl_header;
 /* Forget what was being received. main with interrupts masked. */
 void fdl_rx_reset(void);
 
-/* DA SA FC of the telegram coming in; fdl_header has them once it is a request to us. */
-struct fdl_now {
-    uint8_t da;
-    uint8_t sa;
-    uint8_t fc;
-};
-extern HOT struct fdl_now fdl_now;
+/* Implemented by fdl_plan.c: DA has been received, for us or for all, and len is known. FCS not yet checked: nothing may
+ * be done that lasts, here or in the next two. */
+void fdl_da_isr(uint8_t da) IN_ISR;
 
-/* Implemented by fdl_plan.c: fdl_now and len have been received, for us or for all; FCS not yet checked: nothing may be
- * done that lasts. -> The (up to) two octets behind them are SAPs: tell when they are there. */
+/* Implemented by fdl_plan.c: so have SA and FC. -> The (up to) two octets behind them are SAPs: tell when they are there. */
 bool fdl_header_isr(void) IN_ISR;
 
-/* Implemented by fdl_plan.c: these are there. FCS not yet checked. */
+/* Implemented by fdl_plan.c: these are there. */
 void fdl_saps_isr(void) IN_ISR;
 
 /* Implemented by fdl_plan.c: T_SYN is over. -> One telegram is awaited: it is planned, fdl_header says which one, and the

@@ -12,25 +12,26 @@
 enum rx_state {
     RX_SYN,      /* T_SYN of silence: the receiver is deaf. Out of step, only that resynchronises */
     RX_ALONE,    /* a start delimiter, on a line that cannot show silence     */
-    RX_SD,       /* a start delimiter and the octet behind it                 */
-    RX_SD2_HEAD, /* LEr SD2 DA SA FC                                          */
-    RX_HEADER,   /* SA FC, of the other formats                               */
+    RX_SD,       /* the octet behind a start delimiter that is not SD2        */
+    RX_SD2_HEAD, /* LE LEr SD2                                                */
+    RX_DA,       /* DA of an SD2                                              */
+    RX_HEADER,   /* SA FC of a telegram for us or for all; FCS ED of an SD1   */
     RX_SAPS,     /* DAE SAE                                                   */
     RX_TOKEN,    /* SA of a token                                             */
     RX_PIECE,    /* a piece of a telegram that is longer than the buffer      */
     RX_BODY,     /* the rest, up to ED                                        */
-    RX_AWAITED,  /* all of the telegram that is awaited, unless it is another */
+    RX_ANY,      /* an SD2 up to DA, or a start delimiter and the octet behind it                */
+    RX_FIRST,    /* all of the telegram that is awaited, unless it is another: then up to LEr SD2 */
 };
 
 uint8_t XDATA *HOT fdl_rx_buf;
 HOT struct fdl_header fdl_header;
-HOT struct fdl_now fdl_now;
 
 static HOT uint8_t state;
 static IDATA uint8_t good_sd; /* the last SD was one: counted at the end of the telegram, which is answered first */
 static IDATA uint8_t missing; /* octets of body, FCS and ED to come */
 
-#define SD2_HEAD_LEN 4u /* SD2 LE LEr SD2 */
+STATIC_ASSERT(PHY_HEAD == FDL_BODY, the_head_is_sd2_le_ler_sd2);
 #define HEADER_LEN   3u /* DA SA FC       */
 #define KEPT_LEN     5u /* DA SA FC and two more: kept even of a telegram that is too long */
 #define TAIL_LEN     2u /* FCS ED         */
@@ -48,30 +49,32 @@ void fdl_rx_reset(void)
     state = RX_SYN;
 }
 
-/* The telegram awaited, as a whole. Else two octets: at 187.5 kbit/s an 8-bit part has no time to look at each. Only the
- * short acknowledge is shorter, and is known by the silence behind it; where none can be seen, one octet must do. */
+/* The telegram awaited, as a whole; of any other one its head, or two octets: at 187.5 kbit/s an 8-bit part has no time to
+ * look at each. Only the short acknowledge is shorter, and is known by the silence behind it; where none can be seen, one
+ * octet must do. */
 static uint8_t wait_sd_isr(void) IN_ISR
 {
     if (good_sd)
         fdl_count_isr(&fdl_counters.sd_count);
     good_sd = false;
+    phy_rx.at = fdl_rx_buf;
     phy_rx.model = PHY_MODEL_END;
     if (phy_rx.untimed) {
-        phy_rx.at = fdl_rx_buf;
         phy_rx.left = 1;
         return RX_ALONE;
     }
     if (fdl_await_isr()) {
-        phy_rx.at = fdl_rx_buf;
         phy_rx.model = PHY_MODEL_END - fdl_plan.awaited;
-        phy_rx.left = (uint8_t)(fdl_header.len + SD2_HEAD_LEN + TAIL_LEN);
-        phy_rx.less = (uint8_t)(fdl_header.len - HEADER_LEN + TAIL_LEN);
+        phy_rx.less = (uint8_t)(fdl_header.len + TAIL_LEN);
+        phy_rx.left = (uint8_t)(fdl_header.len + TAIL_LEN + PHY_HEAD);
         phy_rx.sum = (uint8_t)(0u - 2u * FDL_SD2 - 2u * fdl_header.len); /* from DA on */
-        return RX_AWAITED;
+        return RX_FIRST;
     }
-    phy_rx.at = fdl_rx_buf;
-    phy_rx.left = 2;
-    return RX_SD;
+    phy_model[PHY_MODEL - 1u] = FDL_SD2;
+    phy_rx.model = PHY_MODEL_END - 1;
+    phy_rx.less = 1;
+    phy_rx.left = PHY_HEAD + 1u;
+    return RX_ANY;
 }
 
 /* A telegram has ended, good or foreign. */
@@ -95,38 +98,30 @@ static uint8_t want_rest_isr(uint8_t room) IN_ISR
 
 #define ROOM_BEHIND(octets) ((uint8_t)(FDL_BUF_LEN - FDL_BODY - (octets)))
 
-/* DA SA FC are there, at their place. They are looked at now, while the rest comes in: what is decided here costs no
- * T_SDR. */
-static uint8_t st_header_isr(void) IN_ISR
+/* DA is there. It is looked at now, while an 8-bit part waits for SA and FC: what follows them costs it T_SDR. */
+static uint8_t da_isr(void) IN_ISR
 {
-    uint8_t to;
+    const uint8_t da = fdl_rx_buf[FDL_BODY];
+    const uint8_t to = da & 0x7Fu;
 
-    fdl_now.da = fdl_rx_buf[FDL_BODY];
-    fdl_now.sa = fdl_rx_buf[FDL_BODY + 1u];
-    fdl_now.fc = fdl_rx_buf[FDL_BODY + 2u];
-    phy_rx.sum = (uint8_t)(fdl_now.da + fdl_now.sa + fdl_now.fc);
-    missing = (uint8_t)(fdl_header.len - HEADER_LEN + TAIL_LEN);
-    to = fdl_now.da & 0x7Fu;
     if (to == fdl_ts || to == FDL_BROADCAST) {
-        if (fdl_header_isr()) {
-            phy_rx.left = missing <= ONLY_SAPS ? missing : KEPT_LEN - HEADER_LEN;
-            return RX_SAPS;
-        }
-    } else if (fdl_skips_others && !phy_rx.untimed) {
+        fdl_da_isr(da);
+        missing = (uint8_t)(fdl_header.len - HEADER_LEN + TAIL_LEN);
+        phy_rx.left = fdl_header.len == HEADER_LEN ? HEADER_LEN - 1u + TAIL_LEN : HEADER_LEN - 1u;
+        return RX_HEADER;
+    }
+    if (fdl_skips_others && !phy_rx.untimed) {
         fdl_other_isr();
         return RX_SYN;
     }
-    return want_rest_isr(ROOM_BEHIND(HEADER_LEN));
+    missing = (uint8_t)(fdl_header.len - 1u + TAIL_LEN);
+    return want_rest_isr(ROOM_BEHIND(1u));
 }
 
-/* DA is there, right behind SD. */
-static uint8_t start_body_isr(uint8_t len) IN_ISR
+static uint8_t st_da_isr(void) IN_ISR
 {
-    fdl_header.len = len;
-    fdl_rx_buf[FDL_BODY] = fdl_rx_buf[1];
-    phy_rx.at = fdl_rx_buf + (FDL_BODY + 1u);
-    phy_rx.left = HEADER_LEN - 1u;
-    return RX_HEADER;
+    phy_rx.sum = fdl_rx_buf[FDL_BODY];
+    return da_isr();
 }
 
 static uint8_t bad_sd_isr(void) IN_ISR
@@ -136,23 +131,25 @@ static uint8_t bad_sd_isr(void) IN_ISR
     return RX_SYN;
 }
 
+/* Of an SD1 or SD3 DA is there, too. */
+static uint8_t st_sd13_isr(uint8_t len) IN_ISR
+{
+    fdl_header.len = len;
+    return st_da_isr();
+}
+
 static uint8_t st_sd_isr(void) IN_ISR
 {
     uint8_t sd = fdl_rx_buf[0];
 
-    fdl_plan.stage = FDL_OTHERS;
     good_sd = true;
     fdl_req.sd3 = 0;
-    if (sd == FDL_SD2) {
-        phy_rx.left = SD2_HEAD_LEN - 2u + HEADER_LEN;
-        return RX_SD2_HEAD;
-    }
     if (sd == FDL_SD1)
-        return start_body_isr(HEADER_LEN);
+        return st_sd13_isr(HEADER_LEN);
     if (sd == FDL_SD3) {
         fdl_req.sd3 = FDL_AS_SD3;
         fdl_plan.made = 0;
-        return start_body_isr(HEADER_LEN + FDL_SD3_DU);
+        return st_sd13_isr(HEADER_LEN + FDL_SD3_DU);
     }
     if (sd == FDL_SD4) {
         phy_rx.left = 1;
@@ -168,21 +165,32 @@ static uint8_t st_sd_isr(void) IN_ISR
 /* All but the short acknowledge have an octet more. */
 static uint8_t st_alone_isr(void) IN_ISR
 {
+    fdl_plan.stage = FDL_OTHERS;
     if (fdl_rx_buf[0] == FDL_SC)
         return st_sd_isr();
+    if (fdl_rx_buf[0] == FDL_SD2) {
+        phy_rx.left = PHY_HEAD - 1u;
+        return RX_SD2_HEAD;
+    }
+    phy_rx.at = fdl_rx_buf + FDL_BODY;
     phy_rx.left = 1;
     return RX_SD;
 }
 
 static uint8_t st_sd2_head_isr(void) IN_ISR
 {
-    fdl_header.len = fdl_rx_buf[1];
-    if (fdl_header.len != fdl_rx_buf[2] || fdl_header.len < FDL_LE_MIN || fdl_header.len > FDL_LE_MAX ||
-        fdl_rx_buf[3] != FDL_SD2) {
-        fdl_count_isr(&fdl_counters.format);
-        return RX_SYN;
+    const uint8_t XDATA *at = fdl_rx_buf + 1;
+    const uint8_t len = *at++;
+
+    good_sd = true;
+    fdl_req.sd3 = 0;
+    fdl_header.len = len;
+    if (len >= FDL_LE_MIN && len <= FDL_LE_MAX && *at++ == len && *at == FDL_SD2) {
+        phy_rx.left = 1;
+        return RX_DA;
     }
-    return st_header_isr();
+    fdl_count_isr(&fdl_counters.format);
+    return RX_SYN;
 }
 
 static uint8_t st_piece_isr(void) IN_ISR
@@ -209,6 +217,18 @@ static uint8_t st_body_isr(void) IN_ISR
     return telegram_end_isr();
 }
 
+/* Where they are all that was missing, FCS and ED have come with SA and FC. */
+static uint8_t st_header_isr(void) IN_ISR
+{
+    if (fdl_header_isr()) {
+        phy_rx.left = missing <= ONLY_SAPS ? missing : KEPT_LEN - HEADER_LEN;
+        return RX_SAPS;
+    }
+    if (fdl_header.len == HEADER_LEN)
+        return st_body_isr();
+    return want_rest_isr(ROOM_BEHIND(HEADER_LEN));
+}
+
 static uint8_t st_saps_isr(void) IN_ISR
 {
     fdl_saps_isr();
@@ -218,53 +238,63 @@ static uint8_t st_saps_isr(void) IN_ISR
     return want_rest_isr(ROOM_BEHIND(KEPT_LEN));
 }
 
-/* Not the telegram awaited, and that was seen behind the header. */
-static uint8_t st_other_saps_isr(void) IN_ISR
+/* Not the telegram awaited, and that was seen by DA or by one of the `more` octets that are there behind it. */
+static uint8_t st_other_body_isr(void) IN_ISR
 {
-    const uint8_t there = (uint8_t)(phy_rx.at - fdl_rx_buf);
-    const uint8_t sum = phy_rx.sum;
+    const uint8_t more = (uint8_t)(fdl_header.len + TAIL_LEN - 1u - phy_rx.left);
     uint8_t next;
 
+    good_sd = true;
     phy_rx.left = 0;
-    next = st_sd2_head_isr();
-    if (next == RX_SYN)
+    next = da_isr();
+    if (more == 0)
+        return next;
+    if (next != RX_HEADER) { /* main has changed the address */
+        phy_rx.left = 0;
         return RX_SYN;
-    phy_rx.sum = sum;
-    phy_rx.left = (uint8_t)(phy_rx.left - (uint8_t)(there - (FDL_BODY + HEADER_LEN)));
+    }
+    phy_rx.left = 1;
+    if (more == 1)
+        return RX_HEADER;
+    next = st_header_isr();
+    phy_rx.left = (uint8_t)(phy_rx.left - (uint8_t)(more - (HEADER_LEN - 1u)));
     return phy_rx.left ? next : st_saps_isr();
 }
 
-/* Not the telegram awaited: two octets of it, its header, or more. */
+/* Not the telegram awaited. */
 static uint8_t st_another_isr(void) IN_ISR
 {
     fdl_plan.stage = FDL_OTHERS;
-    good_sd = true;
     if (phy_rx.left)
-        return st_other_saps_isr();
+        return st_other_body_isr();
     if (fdl_rx_buf[0] == FDL_SD2)
         return st_sd2_head_isr();
     return st_sd_isr();
 }
 
+static uint8_t st_any_isr(void) IN_ISR
+{
+    fdl_plan.stage = FDL_OTHERS;
+    if (!phy_rx.less)
+        return st_sd_isr();
+    return st_sd2_head_isr() == RX_DA ? st_da_isr() : RX_SYN;
+}
+
 /* Main has changed what the plan of the telegram awaited was made from: it is made now. */
 static uint8_t plan_late_isr(void) IN_ISR
 {
-    const uint8_t sum = phy_rx.sum;
     uint8_t next;
 
     fdl_plan.stage = FDL_OTHERS;
-    next = st_header_isr();
-    if (next == RX_SYN)
-        return RX_SYN;
-    if (next == RX_SAPS)
+    next = da_isr();
+    if (next == RX_HEADER && st_header_isr() == RX_SAPS)
         fdl_saps_isr();
-    phy_rx.sum = sum;
     phy_rx.left = 0;
-    return st_body_isr();
+    return next == RX_SYN ? RX_SYN : st_body_isr();
 }
 
 /* The telegram awaited, or another one. */
-static void st_awaited_isr(void) IN_ISR
+static void st_first_isr(void) IN_ISR
 {
     if (!phy_rx.less) {
         state = st_another_isr();
@@ -279,48 +309,50 @@ static void st_awaited_isr(void) IN_ISR
     good_sd = true;
 }
 
-void phy_chunk_ind_isr(void) IN_ISR
+static uint8_t st_rest_isr(void) IN_ISR
 {
-    if (state >= RX_BODY) { /* first: the other station waits */
-        if (state == RX_BODY)
-            state = st_body_isr();
-        else
-            st_awaited_isr();
-        return;
-    }
     switch (state) {
+    case RX_ANY:
+        return st_any_isr();
     case RX_ALONE:
-        state = st_alone_isr();
-        break;
+        return st_alone_isr();
     case RX_SD:
-        state = st_sd_isr();
-        break;
+        return st_sd_isr();
     case RX_SD2_HEAD:
-        state = st_sd2_head_isr();
-        break;
-    case RX_HEADER:
-        state = st_header_isr();
-        break;
-    case RX_SAPS:
-        state = st_saps_isr();
-        break;
+        return st_sd2_head_isr();
+    case RX_DA:
+        return st_da_isr();
     case RX_TOKEN:
         fdl_other_isr();
-        state = telegram_end_isr();
-        break;
+        return telegram_end_isr();
     case RX_PIECE:
-        state = st_piece_isr();
-        break;
+        return st_piece_isr();
     default:
-        state = RX_SYN;
-        break;
+        return RX_SYN;
     }
+}
+
+/* In front: where the other station waits. */
+void phy_chunk_ind_isr(void) IN_ISR
+{
+    const uint8_t was = state;
+
+    if (was == RX_FIRST)
+        st_first_isr();
+    else if (was == RX_SAPS)
+        state = st_saps_isr();
+    else if (was == RX_HEADER)
+        state = st_header_isr();
+    else if (was == RX_BODY)
+        state = st_body_isr();
+    else
+        state = st_rest_isr();
 }
 
 /* T_SYN or a bad octet in the telegram awaited, or before it. */
 static void leave_awaited_isr(void) IN_ISR
 {
-    if (state != RX_AWAITED)
+    if (state < RX_ANY)
         return;
     if (phy_rx.at == fdl_rx_buf)
         state = RX_SYN;

@@ -89,6 +89,10 @@ hal_dur_t hal_tbit(uint16_t n);
  * isr, lock. */
 void hal_silence(hal_dur_t d) IN_ISR;
 
+/* The line has been silent for d already, and nothing has been received that is still to be told: line_silence_isr() would
+ * follow at once if hal_silence() were called now. A port that is not in a hurry may always say no. isr. */
+bool hal_silent(hal_dur_t d) IN_ISR;
+
 /* Enable the driver and send octets[0..n-1], n >= 1, each after the other without a gap; drop the driver when
  * the last stop bit is out, then line_sent_isr(). octets must stay unchanged until then. Our own octets are
  * not received (except with HAL_LOOP). Must not be called while sending. The first start bit leaves within

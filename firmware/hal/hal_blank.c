@@ -74,6 +74,12 @@ void hal_silence(hal_dur_t d) IN_ISR
     (void)d; /* compare (end of last octet + d) with the running timer: program the rest, or pend the interrupt */
 }
 
+bool hal_silent(hal_dur_t d) IN_ISR
+{
+    (void)d;
+    return false; /* as long as the interrupt that hal_silence() pends is no later */
+}
+
 void hal_send(const uint8_t XDATA *octets, uint16_t n) IN_ISR
 {
     (void)octets; /* driver on, first octet out; the transmit interrupt or DMA does the rest */

@@ -72,6 +72,12 @@ void hal_silence(hal_dur_t d)
         arm_isr();
 }
 
+bool hal_silent(hal_dur_t d)
+{
+    (void)d;
+    return false;
+}
+
 void line_uart_wake(void)
 {
     hal_dur_t now = timer_now();

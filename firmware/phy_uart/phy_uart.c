@@ -45,15 +45,23 @@ static uint8_t min_t_sdr;
 
 /* ---- octets ---------------------------------------------------------------------------------------------- */
 
+static void send_isr(void) IN_ISR
+{
+    line.sending = true;
+    hal_send(phy_tx.at, phy_tx.len);
+}
+
 /* With the transmitter disabled everything goes on as if the answer had been sent. */
 void phy_answer_isr(void) IN_ISR
 {
     if (!line.transmitter) {
         phy_done_ind_isr(true);
-        return;
+    } else if (hal_silent(t_sdr)) {
+        send_isr();
+    } else {
+        phy_rx.waiting = true;
+        hal_silence(t_sdr);
     }
-    phy_rx.waiting = true;
-    hal_silence(t_sdr);
 }
 
 static void cancel_answer_isr(void) IN_ISR
@@ -73,7 +81,11 @@ static bool another_isr(void) IN_ISR
     phy_rx.less = 0;
     if (phy_rx.left <= less)
         return true;
-    phy_rx.left = head == PHY_HEAD ? 2u : head;
+    phy_rx.left = head;
+    if (head == PHY_HEAD) {
+        phy_rx.left = 2u;
+        phy_rx.at += PHY_HEAD - 1u;
+    }
     return false;
 }
 
@@ -103,10 +115,9 @@ void line_silence_isr(void) IN_ISR
 {
     if (phy_rx.waiting) {
         phy_rx.waiting = false;
-        line.sending = true;
         if (phy_rx.left && value_of[PHY_LOOP] == PHY_DISABLED)
             phy_rx.left = 0; /* what is heard now is not for us */
-        hal_send(phy_tx.at, phy_tx.len);
+        send_isr();
     } else if (!line.sending) {
         phy_syn_ind_isr();
     }

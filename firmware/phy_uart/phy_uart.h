@@ -77,8 +77,9 @@ void phy_event_ind(uint8_t variable, uint8_t value);
  * When a chunk is complete the receiver is deaf.
  * model: the next octet should be *model; PHY_MODEL_END: it may be any. The layer above sets it for the first chunk after
  * T_SYN; a model is shorter than its chunk. If an octet is another one, less becomes 0 and the chunk `less` octets shorter:
- * it ends with the head of the model, PHY_HEAD octets. If that is the first octet, it ends with the second one; if it is
- * behind the head, at once, and left is then not 0: the layer above sets it. After a chunk model is PHY_MODEL_END.
+ * it ends with the head of the model, PHY_HEAD octets. If that is the first octet, it has no head: the second octet goes
+ * where the first behind the head would have gone, and ends the chunk. If it is behind the head, the chunk ends at once, and
+ * left is then not 0: the layer above sets it. After a chunk model is PHY_MODEL_END.
  * Invariant: at[0..left-1] may be written. */
 struct phy_rx {
     uint8_t XDATA *at; /* next octet goes here                             */
@@ -93,7 +94,7 @@ extern HOT volatile struct phy_rx phy_rx;
 
 /* Models end at the end of phy_model, wherever they begin; written by the layer above while no chunk has one. */
 #define PHY_MODEL 9u
-#define PHY_HEAD  7u
+#define PHY_HEAD  4u
 #define PHY_MODEL_END (phy_model + PHY_MODEL)
 extern IDATA uint8_t phy_model[PHY_MODEL];
 

@@ -21,6 +21,7 @@ static volatile __bit bad;
 static volatile __bit first; /* in store, and the next octet calls the service */
 static volatile __bit begun; /* that is why it has been called, and nothing else was */
 static volatile __bit rest;  /* nothing more to tell */
+static volatile __bit leave; /* the chunk is longer than the service waits for */
 static HOT uint8_t page;    /* of `in` */
 static HOT uint8_t err;     /* HAL_ERR_* of the bad octet */
 static IDATA uint8_t stop;
@@ -28,7 +29,7 @@ static IDATA uint8_t stop;
 #define KEPT 48
 
 #define MODEL_END (_phy_model + 9) /* PHY_MODEL_END */
-#define HEAD 7                     /* PHY_HEAD */
+#define HEAD 4                     /* PHY_HEAD */
 STATIC_ASSERT(PHY_MODEL == 9 && PHY_HEAD == HEAD, what_assembly_cannot_read);
 static volatile PAGED uint8_t kept[KEPT];
 
@@ -136,8 +137,14 @@ void serial_isr(void) __interrupt(4) __using(2) __naked
         mov (_phy_rx + 7),#0
         jc 00015$
         jz 00015$
-        cjne a,#HEAD,00016$
-        mov a,#2                ; the first octet
+        cjne a,#HEAD,00016$     ; the first octet: no head
+        mov a,r0
+        add a,#(HEAD - 1)
+        mov r0,a
+        jnc 00018$
+        inc _page
+    00018$:
+        mov a,#2
     00016$:
         mov r3,a
         djnz r3,00017$
@@ -175,11 +182,16 @@ void keep_isr(void) __naked
 void mark_isr(void) __naked
 {
     __asm
+        jb _store,00001$
+        push psw
+        mov psw,#0x10
         lcall _keep_isr
+        pop psw
+    00001$:
         clr _begun
-        mov _mark,r0
+        mov _mark,_in
         setb _hear
-        ret
+        reti
     __endasm;
 }
 
@@ -277,7 +289,7 @@ static bool tell_isr(void) IN_ISR
         else if (reload_low | reload_high)
             line_silence_isr();
         if (sending)
-            sent_isr(); /* before the first octet is out */
+            sent_isr();
     }
     return false;
 }
@@ -320,7 +332,7 @@ void service_isr(void) __interrupt(2) __using(1) __naked
         sjmp 00022$
     00020$:
         setb _ES
-        mov a,r7
+        clr c
         ljmp 00018$
     00017$:                     ; the first octet after rest: of a burst, unless an answer waits
         mov a,(_phy_rx + 2)
@@ -392,8 +404,12 @@ void service_isr(void) __interrupt(2) __using(1) __naked
         lcall _phy_chunk_ind_isr
         mov a,(_phy_rx + 2)
         jz 00011$               ; deaf, or an answer waits
-    00018$:
         mov r7,a
+        mov a,_few
+        clr c
+        subb a,r7
+    00018$:
+        mov _leave,c
         mov dpl,_phy_rx
         mov dph,(_phy_rx + 1)
         mov r6,(_phy_rx + 3)
@@ -409,7 +425,7 @@ void service_isr(void) __interrupt(2) __using(1) __naked
     00030$:
         mov a,r0
         cjne a,_in,00003$
-        jb _burst,00034$
+        jnb _leave,00034$
         clr _EA
         cjne a,_in,00015$
         jb _IE1,00015$
@@ -459,13 +475,15 @@ void service_isr(void) __interrupt(2) __using(1) __naked
     00034$:
         ljmp 00004$
     00011$:
+        jb _sending,00040$
         jnb _due,00012$         ; the answer has not to wait any more
         mov a,_taken
         cjne a,_in,00012$
         clr _due
         lcall _line_silence_isr
         jnb _sending,00012$
-        lcall _sent_isr         ; before the first octet is out
+    00040$:
+        lcall _sent_isr
         sjmp 00012$
     00016$:
         jb _sending,00012$
@@ -482,7 +500,9 @@ void service_isr(void) __interrupt(2) __using(1) __naked
         pop acc
         reti
     00039$:
-        mov a,(_phy_rx + 2)
+        mov r7,(_phy_rx + 2)
+        mov c,_burst
+        cpl c
         ljmp 00018$
     00004$:                     ; straight from the receiver
         clr _ES
@@ -502,8 +522,11 @@ void service_isr(void) __interrupt(2) __using(1) __naked
         mov (_phy_rx + 7),#0
         jc 00032$
         jz 00032$
-        cjne a,#HEAD,00033$
-        mov a,#2                ; the first octet
+        cjne a,#HEAD,00033$     ; the first octet: no head
+        inc dptr
+        inc dptr
+        inc dptr
+        mov a,#2
     00033$:
         mov r7,a
         djnz r7,00009$
@@ -512,6 +535,37 @@ void service_isr(void) __interrupt(2) __using(1) __naked
         dec r7                  ; the chunk is over
         setb c
         ljmp 00028$
+    __endasm;
+}
+
+/* d comes in dptr. Timer 0 stands while it is read. */
+bool hal_silent(hal_dur_t d) IN_ISR __naked
+{
+    d;
+    __asm
+        clr _TR0
+        clr c
+        mov a,_TL0
+        subb a,_reload_low
+        mov r6,a
+        mov a,_TH0
+        subb a,_reload_high
+        setb _TR0
+        mov r7,a
+        clr c                   ; elapsed < d?
+        mov a,r6
+        subb a,dpl
+        mov a,r7
+        subb a,dph
+        mov dpl,#0
+        jc 00001$
+        jb _RI,00001$
+        jb _bad,00001$
+        mov a,_taken
+        cjne a,_in,00001$
+        mov dpl,#1
+    00001$:
+        ret
     __endasm;
 }
 

@@ -34,6 +34,7 @@ void serial_isr(void) __interrupt(4) __using(2) __naked;        /* high */
 extern volatile __bit sending;
 extern volatile __bit hear;   /* chunk.c: not deaf */
 extern volatile __bit burst;  /* octets are so short that the service stays for the whole telegram */
+extern HOT uint8_t few;       /* it stays for a chunk of so many octets                             */
 void send_next_isr(void) __naked; /* high: where serial_isr() goes when no octet has been received  */
 void sent_isr(void) IN_ISR;       /* the service while sending: all that are left, line_sent_isr()  */
 
@@ -53,7 +54,7 @@ static volatile HOT uint8_t __at(0x17) taken; /* R7: what was kept up to here ha
 bool receive_open(uint16_t n, uint8_t format); /* can follow this divisor and format; SCON is set, nothing is heard  */
 void receive_off_isr(void) IN_ISR __naked;     /* what has been heard and not been told is forgotten                 */
 void ninth_isr(void) __naked;                  /* A gets its parity, in TB8 or in itself; uses no other register     */
-void mark_isr(void) __naked;                   /* high, in bank 2: silence was complete before what is heard next    */
+void mark_isr(void) __naked;                   /* high, by ljmp: silence was complete before what is heard next      */
 void silent_isr(void) IN_ISR __naked;          /* low, Timer 0 and the receiver masked: silent for longer than that  */
 
 #endif

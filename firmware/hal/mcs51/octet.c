@@ -78,8 +78,8 @@ void serial_isr(void) __interrupt(4) __using(2) __naked
 void mark_isr(void) __naked
 {
     __asm
-        mov _mark,r0
-        ret
+        mov _mark,_in
+        reti
     __endasm;
 }
 
@@ -106,6 +106,12 @@ void silent_isr(void) IN_ISR __naked
         setb _IE1
         ret
     __endasm;
+}
+
+bool hal_silent(hal_dur_t d) IN_ISR
+{
+    (void)d;
+    return false; /* these stacks do not ask */
 }
 
 /* All has been told: the store begins anew, unless something has come meanwhile. */

@@ -10,6 +10,9 @@
 
 /* Below this an octet leaves so little time that the service stays until the telegram is over. */
 #define BURST_OCTET_CYCLES 100u
+/* Below this it waits for the octets of a short chunk: to be interrupted by each would take as long. */
+#define WAIT_OCTET_CYCLES 200u
+#define FEW               5u
 /* Below this an interrupt an octet would leave gaps: the service stays until all are sent. */
 #ifndef POLLED_BIT_CYCLES
 #define POLLED_BIT_CYCLES 80u
@@ -20,6 +23,7 @@
 volatile __bit sending;
 volatile __bit burst;
 volatile __bit hear;
+HOT uint8_t few;
 
 static volatile __bit polled;
 static const uint8_t XDATA *HOT tx_at;
@@ -32,17 +36,13 @@ static uint8_t bit_thirds;
 
 /* ---- send ------------------------------------------------------------------------------------------------------------------- */
 
-/* octets come in dptr. In assembly because the master waits for the first one. */
+/* octets come in dptr. In assembly because the master waits for the first one. Where an interrupt an octet would leave gaps
+ * it returns when all are out. */
 void hal_send(const uint8_t XDATA *octets, uint16_t n) IN_ISR __naked
 {
     octets, n;
     __asm
-        clr _REN
-        clr _TR0
-        clr _TF0
         clr _TI
-        clr _hear
-        clr _due
         setb _sending
     __endasm;
     DRIVER_ON();
@@ -50,6 +50,11 @@ void hal_send(const uint8_t XDATA *octets, uint16_t n) IN_ISR __naked
         movx a,@dptr
         lcall _ninth_isr
         mov _SBUF,a
+        clr _REN
+        clr _TR0
+        clr _TF0
+        clr _hear
+        clr _due
         inc dptr
         mov _tx_at,dpl
         mov (_tx_at + 1),dph
@@ -66,6 +71,7 @@ void hal_send(const uint8_t XDATA *octets, uint16_t n) IN_ISR __naked
         mov _tx_high,a
         jnb _polled,00002$
         clr _ES
+        lcall _send_polled_isr
         setb _IE1
     00002$:
         ret
@@ -134,22 +140,25 @@ static void send_polled_isr(void) IN_ISR __naked
     00005$:
         add a,#4                ; cycles a turn
         jnc 00005$
-        ret
+    __endasm;
+    DRIVER_OFF();
+    __asm
+        ljmp _silence_restart_isr
     __endasm;
 }
 
 void sent_isr(void) IN_ISR
 {
-    if (polled)
-        send_polled_isr();
-    else if (!due)
-        return;
-    DRIVER_OFF();
+    if (!polled) {
+        if (!due)
+            return;
+        DRIVER_OFF();
+        silence_restart_isr();
+    }
     sending = 0;
     receive_off_isr();
     RI = 0;
     REN = 1;
-    silence_restart_isr();
     ES = 1;
     line_sent_isr();
 }
@@ -224,6 +233,7 @@ static void set_bit_time(uint16_t n)
     stop_bit_high = (uint8_t)((0u - bit_cycles) >> 8);
     polled = bit_cycles < POLLED_BIT_CYCLES;
     burst = hal_tbit(11) < BURST_OCTET_CYCLES;
+    few = hal_tbit(11) >= WAIT_OCTET_CYCLES ? 0 : burst ? 255 : FEW;
 }
 
 uint8_t hal_line_open(uint32_t bit_per_s, uint8_t format)

@@ -41,10 +41,7 @@ void silence_timer_isr(void) __interrupt(1) __using(2) __naked
         setb _due
         setb _IE1
         jb _sending,00001$
-        push psw
-        mov psw,#0x10
-        lcall _mark_isr
-        pop psw
+        ljmp _mark_isr
     00001$:
         reti
     __endasm;

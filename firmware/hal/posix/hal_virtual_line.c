@@ -160,6 +160,12 @@ void hal_silence(hal_dur_t d) IN_ISR
     hv_vm.limit_armed = d != 0 && hv_vm.bit != 0;
 }
 
+bool hal_silent(hal_dur_t d) IN_ISR
+{
+    (void)d;
+    return false;
+}
+
 void hal_send(const uint8_t XDATA *octets, uint16_t n) IN_ISR
 {
     hv_isr_or_lock("hal_send");
