@@ -42,28 +42,8 @@ static void empty_isr(void) IN_ISR
         fdl_tx_short_isr();
 }
 
-/* The room that holds the answer kept for a retry is not written to before the request is known to be good. */
-static void write_isr(struct fdl_room PAGED *room) IN_ISR
-{
-    if (!(fdl_plan.is & FDL_FRESH) && fdl_last.reply == fdl_req.reply)
-        fdl_plan.late = true;
-    else
-        fdl_tx_frame_isr(room);
-}
-
-static void no_frame_isr(struct fdl_room PAGED *room) IN_ISR
-{
-    const uint8_t le = (uint8_t)(phy_tx.len - 6u); /* at most 251 */
-
-    if (le == (uint8_t)(fdl_header.len - fdl_req.len))
-        empty_isr();
-    else if (le > FDL_LE_MAX)
-        refuse_isr(FDL_UE); /* our choice: asked with SAPs, they leave no room for so many data */
-    else
-        write_isr(room);
-}
-
-/* The frame that stands there, if it is one and the right one. */
+/* The frame that stands there, if it is one and the right one; else a new one. The room that holds the answer kept for a
+ * retry is not written to before the request is known to be good. */
 static void room_isr(struct fdl_room PAGED *room) IN_ISR
 {
     const uint8_t head = (uint8_t)(fdl_header.len - fdl_req.len);
@@ -72,14 +52,21 @@ static void room_isr(struct fdl_room PAGED *room) IN_ISR
     phy_tx.len = (uint8_t)(at[0] + head + 6u);
     at += (uint8_t)(FDL_ROOM_HEAD - 4u - head);
     phy_tx.at = at;
-    if (room->head == (head | fdl_req.sd3)) {
+    if (room->head == head && !fdl_req.sd3) {
         at += 4;
         if (at[0] == fdl_header.sa && at[1] == fdl_header.da && at[2] == (FDL_DL | (fdl_plan.is & FDL_HIGH)) &&
             (head != 5u || (at[3] == fdl_header.more[1] && at[4] == fdl_header.more[0])) &&
             (head != 4u || at[3] == fdl_header.more[0]))
             return;
     }
-    no_frame_isr(room);
+    if (phy_tx.len == (uint8_t)(head + 6u))
+        empty_isr();
+    else if ((uint8_t)(phy_tx.len - 6u) > FDL_LE_MAX)
+        refuse_isr(FDL_UE); /* our choice: asked with SAPs, they leave no room for so many data */
+    else if (!(fdl_plan.is & FDL_FRESH) && fdl_last.reply == fdl_req.reply)
+        fdl_plan.late = true;
+    else
+        fdl_tx_frame_isr(room);
 }
 
 /* An SRD or Ident is answered from fdl_req.reply. */
