@@ -12,6 +12,7 @@ part of the time from the request to the silence after it or its answer.
 Expected telegrams are worked out by hand: address 5, master 2, EN 50170-2 part 8; FCS is the sum modulo 256.
 A request that gets no answer is repeated, as a master does (max_retry), but in the table no repetition is needed.
 """
+import re
 import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -56,6 +57,9 @@ MASTER_PAUSE = 24000
 BUDGET = {(int(rate), what): float(limit) for rate, what, limit in
           (line.split() for line in (ROOT / "boards" / "87c51fb" / "timing.txt").read_text().splitlines()
            if line and not line.startswith("#"))}
+# T_bit, as the GSD file promises
+MAX_T_SDR = {int(rate): int(most) for rate, most in
+             re.findall(r"R\([\d.]+, (\d+), (\d+)\)", (ROOT / "boards" / "87c51fb" / "dp_rates.h").read_text())}
 REAL_BITS, REAL_CYCLES = 0.5, 4  # later on the real part, at most: a start bit waits up to a bit, RI is half a bit earlier;
                                  # two interrupts are entered, two cycles each
 
@@ -123,6 +127,7 @@ class Bench:
         if limit:
             turn, gap = self.timing(name, exchanges, limit)
             real = turn + REAL_BITS + REAL_CYCLES / self.bit
+            self.check(f"{name}: max T_SDR of the GSD file", real <= MAX_T_SDR[self.rate], f"{real:.1f}")
             text += f"    {turn:5.1f}  {real:5.1f}     {gap:4.0f}   {gap - self.bit:4.0f}"
         self.rows.append(f"{text:100s}{100 * left:3.0f} %")
 
