@@ -197,6 +197,21 @@ CASES = {
     "a variable counted in A, where it is wanted": (
         "mov a,_g / inc a / mov _g,a / add a,_h / mov _h,a / ret", "inc _g / mov a,_g / add a,_h / mov _h,a / ret"),
     "a volatile variable counted in A": ("mov a,_v / inc a / mov _v,a / ret", SAME),
+    # ---- values carried to a label ----
+    "a result that is stored behind a label": (
+        "mov a,_h / jz 00101$ / mov dpl,#1 / sjmp 00102$ / 00101$: / mov dpl,r6 / 00102$: / mov _g,dpl / inc _p / ret",
+        "mov a,_h / jz 00101$ / mov _g,#1 / sjmp 00102$ / 00101$: / mov _g,r6 / 00102$: / inc _p / ret"),
+    "one that is wanted behind it": (
+        "mov a,_h / jz 00101$ / mov dpl,#1 / sjmp 00102$ / 00101$: / mov dpl,r6 / 00102$: / mov _g,dpl / lcall _elsewhere / inc _p / ret",
+        SAME),
+    "one that a branch leads to": (
+        "mov dpl,r5 / mov a,_h / jz 00102$ / mov dpl,r6 / 00102$: / mov _g,dpl / inc _p / ret", SAME),
+    "one that one way does not set last": (
+        "mov a,_h / jz 00101$ / mov dpl,#1 / sjmp 00102$ / 00101$: / mov dpl,r6 / inc _p / 00102$: / mov _g,dpl / inc _p / ret", SAME),
+    "one for a port": (
+        "mov a,_h / jz 00101$ / mov dpl,#1 / sjmp 00102$ / 00101$: / mov dpl,r6 / 00102$: / mov _SBUF,dpl / inc _p / ret", SAME),
+    "from register to register there is no way": (
+        "mov a,_h / jz 00101$ / mov dpl,#1 / sjmp 00102$ / 00101$: / mov dpl,r6 / 00102$: / mov r3,dpl / mov a,r3 / add a,r3 / mov _g,a / ret", SAME),
     # ---- tests whose outcome is known ----
     "a result that is looked at again": (
         "mov a,_g / jz 00101$ / mov dpl,#1 / sjmp 00102$ / 00101$: / mov dpl,#0 / 00102$: / mov a,dpl / jz 00103$ / mov _h,#1 / "
@@ -296,6 +311,10 @@ CALLED_ONCE = {
     "one too long for the branch around it stands apart": (
         "mov a,_g / jz 00101$ / lcall _c / 00101$: / mov _h,a / ret | _c:" + "inc _p / " * 70 + "ret",
         "mov a,_g / jz 00101$ / ljmp 00102$ / 00101$: / mov _h,a / ret / 00102$: / ; _c / " + "inc _p / " * 70 + "ljmp 00101$"),
+    "one that stands apart and goes on where a way around its end does": (
+        "mov a,_g / jz 00101$ / jc 00103$ / ljmp _c / 00103$: / 00101$: / mov _h,a / ret | _c:" + "inc _p / " * 70 + "ret",
+        "mov a,_g / jz 00101$ / ljmp 00104$ / 00101$: / mov _h,a / ret / 00104$: / jc 00103$ / ljmp 00105$ / 00103$: / ljmp 00101$ / "
+        "00105$: / ; _c / " + "inc _p / " * 70 + "ret"),
     "one called twice": ("lcall _c / lcall _c / mov _h,a / ret | _c:inc _p / inc _g / ret", SAME),
     "one called and jumped to": ("lcall _c / mov _h,a / ljmp _c | _c:inc _p / inc _g / ret", SAME),
     "what is known at the call is known in it": (

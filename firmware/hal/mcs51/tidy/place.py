@@ -69,7 +69,7 @@ def stand_apart(function, line):
     if last < first or not any(is_name(other) for other in block) or function.code[-1].op not in ENDS:
         return False
     label = next(new_labels(function))
-    back = [] if [other for other in block if other.op][-1].op in ENDS else [instruction("ljmp", line.goes_to)]
+    back = [] if [other for other in block if other.op or other.label][-1].op in ENDS else [instruction("ljmp", line.goes_to)]
     function.lines = lines[:first] + [instruction("ljmp", label)] + lines[last:] + [Line(f"{label}:")] + block + back
     function.refresh()
     if branches_too_far(function) < far:

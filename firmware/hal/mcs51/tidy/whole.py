@@ -1,5 +1,6 @@
 """The rules over a whole program: callees before their callers, each as long as anything changes."""
 from flow import Flow
+from carried import put_at_once
 from far import mend
 from homes import find_homes, find_safer
 from inline import inline
@@ -59,6 +60,7 @@ def improve(program, flow, function):
     for _ in range(ROUNDS):
         ways = Ways(function).run() | follow(function)
         ways |= Threads(program, flow, function, own_memory(program, flow, function)).run()
+        ways |= put_at_once(program, flow, function)
         simpler = Simplifier(program, flow, function, own_memory(program, flow, function)).run()
         unread = Unread(program, flow, function, own_memory(program, flow, function)).run()
         if not (ways or simpler or unread):
