@@ -69,6 +69,64 @@ static void data_written_while_the_request_comes_in_are_in_the_answer(void)
     ANSWERED("68 05 05 68 02 08 0A 33 44 8B 16");
 }
 
+/* An update has three locks: it looks for the SAP, exchanges rooms, makes the plan anew. */
+static const char *to_come;
+static uint8_t unlocks;
+
+static void hear_at_unlock(void)
+{
+    if (--unlocks == 0)
+        hear(to_come);
+}
+
+static void update_22_heard_meanwhile(const char *hex, uint8_t unlock)
+{
+    to_come = hex;
+    unlocks = unlock;
+    fake_at_unlock = hear_at_unlock;
+    unit_update(FDL_SAP_NIL, "22", FDL_UPDATE_LOW);
+    fake_at_unlock = 0;
+}
+
+static void a_request_that_ends_while_its_reply_is_written_has_the_old_data_or_the_new_whole(void)
+{
+    begin("68 04 04 68 08 02 6D");
+    update_22_heard_meanwhile("01 78 16", 1);
+    finish_request();
+    ANSWERED(ANSWER_11);
+    unit_update(FDL_SAP_NIL, "11", FDL_UPDATE_LOW);
+    begin("68 04 04 68 08 02 5D");
+    update_22_heard_meanwhile("01 68 16", 2);
+    finish_request();
+    ANSWERED(ANSWER_22);
+    unit_update(FDL_SAP_NIL, "11", FDL_UPDATE_LOW);
+    unit_update(FDL_SAP_NIL, "11", FDL_UPDATE_LOW);
+    request("68 04 04 68 08 02 5D 01 68 16");
+    ANSWERED(ANSWER_22); /* kept for the retry */
+    begin("");
+    update_22_heard_meanwhile("68 04 04 68 08 02 7D 01 88 16", 2); /* the one awaited */
+    finish_request();
+    ANSWERED(ANSWER_22);
+}
+
+static void another_telegram_that_begins_while_the_reply_is_written_leaves_its_room_alone(void)
+{
+    request("68 04 04 68 08 02 6D 01 78 16");
+    begin("");
+    update_22_heard_meanwhile("68 F9 F9 68 09", 2);
+    request("68 04 04 68 08 02 5D 01 68 16");
+    ANSWERED(ANSWER_22);
+    unit_update(FDL_SAP_NIL, "11", FDL_UPDATE_LOW);
+    begin("");
+    update_22_heard_meanwhile("68 05 05 68 88 82 7D", 2);
+    end("0A 3E 4F 16"); /* not active: 88 + 82 + 7D + 0A + 3E = 1CF, so RS to a wrong FCS: silence */
+    NOT_ANSWERED();
+    request("68 05 05 68 88 82 7D 0A 3E CF 16");
+    ANSWERED("10 02 08 03 0D 16");
+    request("68 04 04 68 08 02 5D 01 68 16");
+    ANSWERED(ANSWER_22);
+}
+
 static void data_written_after_the_end_are_in_the_next_answer_whole(void)
 {
     uint8_t i;
@@ -320,6 +378,8 @@ int main(void)
     RUN_TEST(a_bad_fcs_after_the_decision_leaves_no_trace_but_the_counter);
     RUN_TEST(nor_does_it_take_away_an_answer_that_is_given_once);
     RUN_TEST(data_written_while_the_request_comes_in_are_in_the_answer);
+    RUN_TEST(a_request_that_ends_while_its_reply_is_written_has_the_old_data_or_the_new_whole);
+    RUN_TEST(another_telegram_that_begins_while_the_reply_is_written_leaves_its_room_alone);
     RUN_TEST(data_written_after_the_end_are_in_the_next_answer_whole);
     RUN_TEST(a_request_is_executed_when_its_answer_is_out);
     RUN_TEST(a_sap_deactivated_before_the_end_is_not_active);

@@ -229,6 +229,8 @@ void fdl_telegram_isr(void) IN_ISR
         fdl_count_isr(fdl_plan.stage == FDL_OTHERS ? &fdl_counters.foreign : &fdl_counters.format);
         return;
     }
+    if (fdl_plan.stale)
+        fdl_refresh_isr();
     heard |= fdl_plan.hears;
     fdl_plan.stage = FDL_TO_BOOK;
     if (fdl_plan.again)
@@ -315,6 +317,7 @@ void fdl_reset(uint8_t ts)
     fdl_last.len = 0;
     fdl_plan.stage = FDL_IDLE;
     fdl_plan.turn = 0;
+    fdl_plan.stale = false;
     fdl_unplan_isr();
     fdl_rx_reset();
     fdl_sap_reset();

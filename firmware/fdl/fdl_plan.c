@@ -91,33 +91,35 @@ static void reply_isr(void) IN_ISR
 
 /* ---- the decision ---------------------------------------------------------------------------------------- */
 
-/* What the SAP's row says -> FDL_OK or the refusal. */
-static uint8_t decide_isr(void) IN_ISR
+/* What the SAP's row says. */
+static void decide_isr(void) IN_ISR
 {
     const struct fdl_sap PAGED *row = fdl_row_of[fdl_req.dsap];
 
+    fdl_plan.result = FDL_RS;
     if (!(row->services & fdl_req.service))
-        return FDL_RS;
+        return;
     if (row->access != FDL_ALL && row->access != fdl_req.sa)
-        return FDL_RS;
+        return;
+    fdl_plan.result = FDL_RR; /* our choice: the L_sdu is longer than the resource activated for it */
     if (fdl_header.len > FDL_BODY_MAX || fdl_req.len > row->max_len)
-        return FDL_RR; /* our choice: the L_sdu is longer than the resource activated for it */
+        return;
+    fdl_plan.result = FDL_OK;
+    fdl_plan.row_handling = row->handling;
     if (fdl_req.service == FDL_SRD)
         fdl_plan.row_reply = row->reply;
-    fdl_plan.row_handling = row->handling;
-    return FDL_OK;
 }
 
 /* FDL status, Ident and LSAP status: not numbered, they leave the FCB alone. */
-static uint8_t status_isr(void) IN_ISR
+static void status_isr(void) IN_ISR
 {
     const uint8_t function = fdl_header.fc & FDL_FC_FUNCTION;
 
+    fdl_plan.result = FDL_OK;
     if (function == FDL_LSAP_STATUS)
-        return fdl_lsap_isr();
-    if (function == FDL_IDENT)
+        fdl_plan.result = fdl_lsap_isr();
+    else if (function == FDL_IDENT)
         fdl_plan.row_reply = fdl_ident_reply_isr();
-    return FDL_OK;
 }
 
 /* The rest of the decision: what may be another one each time. */
@@ -126,6 +128,7 @@ static void settle_isr(void) IN_ISR
     uint8_t refusal;
 
     fdl_plan.stage = FDL_PLANNED;
+    fdl_plan.stale = false;
     fdl_plan.refusal = fdl_plan.result;
     fdl_plan.handling = fdl_plan.row_handling;
     fdl_req.reply = fdl_plan.row_reply;
@@ -133,7 +136,7 @@ static void settle_isr(void) IN_ISR
         refusal = fdl_ask_isr();
         if (refusal)
             fdl_plan.refusal = refusal;
-    } else if (fdl_plan.handling == FDL_TO_MAIN && !fdl_box_is_free_isr()) {
+    } else if (fdl_plan.handling != FDL_ANSWER_ONLY && !fdl_box_is_free_isr()) {
         fdl_plan.handling = FDL_ANSWER_ONLY;
         fdl_plan.refusal = FDL_RR;
     }
@@ -173,9 +176,9 @@ static void plan_isr(void) IN_ISR
     fdl_plan.row_reply = 0;
     fdl_plan.row_handling = FDL_ANSWER_ONLY;
     if (fdl_req.service == FDL_NUMBERLESS)
-        fdl_plan.result = status_isr();
+        status_isr();
     else
-        fdl_plan.result = decide_isr();
+        decide_isr();
     answer_isr();
 }
 
@@ -368,16 +371,33 @@ void fdl_resettle_isr(void) IN_ISR
     fdl_plan.stage = stage;
 }
 
-void fdl_replan_isr(struct fdl_reply PAGED *reply) IN_ISR
+void fdl_written_isr(struct fdl_reply PAGED *reply) IN_ISR
 {
-    if (!reply) {
-        fdl_unplan_isr();
-        if (fdl_plan.stage == FDL_PLANNED)
-            plan_isr();
-        return;
-    }
     if (fdl_plan.stage != FDL_PLANNED && fdl_plan.stage != FDL_AWAITED)
         fdl_plan.awaited = 0;
     else if (reply == fdl_req.reply)
+        fdl_plan.stale = true;
+}
+
+void fdl_refresh_isr(void) IN_ISR
+{
+    if (!fdl_plan.stale)
+        return;
+    if (fdl_plan.stage == FDL_PLANNED || fdl_plan.stage == FDL_AWAITED)
         reply_isr();
+    else
+        fdl_plan.awaited = 0;
+    fdl_plan.stale = false;
+}
+
+void fdl_replan_isr(struct fdl_reply PAGED *reply) IN_ISR
+{
+    if (reply) {
+        fdl_written_isr(reply);
+        fdl_refresh_isr();
+        return;
+    }
+    fdl_unplan_isr();
+    if (fdl_plan.stage == FDL_PLANNED)
+        plan_isr();
 }

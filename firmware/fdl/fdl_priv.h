@@ -113,6 +113,7 @@ struct fdl_plan {
     uint8_t handling; /* who executes the request: FDL_ANSWER_ONLY: nobody                */
     uint8_t is;       /* of fdl_req.reply, FDL_FRESH only where it is to be turned        */
     uint8_t late;     /* the frame of fdl_req.reply is to be built when the telegram is good */
+    uint8_t stale;    /* fdl_req.reply has been written since: fdl_refresh_isr() before phy_tx is used    */
     uint8_t turn;     /* what is being sent is `ready` of fdl_req.reply: to be turned                    */
     uint8_t again;    /* FC is that of the request answered last: perhaps a retry         */
 
@@ -151,6 +152,11 @@ bool fdl_box_is_free_isr(void) IN_ISR;
 
 /* main, locked: SAP, reply or address have changed (reply: only this one; 0: anything). */
 void fdl_replan_isr(struct fdl_reply PAGED *reply) IN_ISR;
+
+/* The same for a reply in two parts, so that the lock is short: it has been written; then a plan that is made from it is
+ * made anew, unless the request has come to its end meanwhile and done that. main, locked. */
+void fdl_written_isr(struct fdl_reply PAGED *reply) IN_ISR;
+void fdl_refresh_isr(void) IN_ISR; /* and isr */
 
 /* main, locked: fdl_ask_isr() or a box may say another thing now. */
 void fdl_resettle_isr(void) IN_ISR;

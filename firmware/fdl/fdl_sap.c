@@ -198,7 +198,10 @@ void fdl_reply_write(struct fdl_reply PAGED *reply, const uint8_t XDATA *lsdu, u
     reply->is = (uint8_t)((reply->is & ~FDL_SINGLE) | FDL_FRESH | FDL_VALID | (how & FDL_SINGLE));
     if (!(how & FDL_UPDATE_KEEP))
         fdl_reply_priority_isr(reply, how & FDL_UPDATE_HIGH);
-    fdl_replan_isr(reply);
+    fdl_written_isr(reply);
+    hal_irq_restore(irq);
+    irq = hal_irq_save();
+    fdl_refresh_isr();
     hal_irq_restore(irq);
 }
 
