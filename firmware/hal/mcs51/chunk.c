@@ -362,7 +362,7 @@ void service_isr(void) __interrupt(2) __using(1) __naked
         add a,r6
         mov r6,a
         djnz r7,00005$
-        ljmp 00010$
+        sjmp 00036$
     00038$:
         setb _ES
         ljmp 00026$
@@ -388,7 +388,15 @@ void service_isr(void) __interrupt(2) __using(1) __naked
         add a,r6
         mov r6,a
         djnz r7,00005$
-        ljmp 00010$
+    00036$:                     ; the chunk is complete
+        mov _phy_rx,dpl
+        mov (_phy_rx + 1),dph
+        mov (_phy_rx + 2),r7
+        mov (_phy_rx + 3),r6
+        mov (_phy_rx + 6),r1
+        mov _taken,r0
+        setb _ES
+        ljmp 00001$
     00014$:
         clr _RI
         mov _err,#1             ; HAL_ERR_PARITY
@@ -488,6 +496,21 @@ void service_isr(void) __interrupt(2) __using(1) __naked
     00016$:
         jb _sending,00012$
         setb _ES
+        jnb _due,00012$         ; a silence, and nothing else
+        jb _bad,00012$
+        mov a,_mark
+        cjne a,_taken,00012$
+        cjne a,_in,00012$
+        mov a,_reload_low
+        orl a,_reload_high
+        jz 00012$
+        clr _due
+        clr _first
+        lcall _line_silence_isr
+        jb _sending,00040$
+        mov a,(_phy_rx + 2)
+        jz 00012$
+        jnb _burst,00039$
     00012$:
         lcall _serve_isr
         mov a,dpl
