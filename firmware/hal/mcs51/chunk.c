@@ -316,8 +316,8 @@ bool serve_isr(void) IN_ISR
 }
 
 /* The usual case without C: a chunk is complete; its upcall asks for the next one; what has been kept meanwhile is
- * poured into it, which may complete it; the octets to come go there directly. In a burst they are waited for here, 22
- * cycles each. */
+ * poured into it, which may complete it; the octets to come go there directly. In a burst, and where they are few enough,
+ * they are waited for here, 22 cycles each. A silence that nothing has come before or behind is told here, too. */
 void service_isr(void) __interrupt(2) __using(1) __naked
 {
     __asm
