@@ -1,10 +1,12 @@
 # 8051 images in the simulator s51, and their budgets.
 
-SCRIPT_TESTS_ONCE += host_tests/s51_dp.py host_tests/s51_masters.py host_tests/s51_contract.py host_tests/s51_states.py
+SCRIPT_TESTS_ONCE += host_tests/s51_dp.py host_tests/s51_masters.py host_tests/s51_contract.py host_tests/s51_states.py \
+                     host_tests/s51_faults.py
 host_tests/s51_contract.py_TIMEOUT := 300
 host_tests/s51_dp.py_TIMEOUT      := 300
 host_tests/s51_masters.py_TIMEOUT := 300
 host_tests/s51_states.py_TIMEOUT  := 300
+host_tests/s51_faults.py_TIMEOUT  := 300
 SCRIPT_TESTS_ONCE += host_tests/s51_stc89.py
 host_tests/s51_stc89.py_TIMEOUT := 300
 LONG_TESTS += host_tests/s51_long.py host_tests/s51_stc89_long.py

@@ -137,11 +137,13 @@ class Chip:
         self.ticks = 0  # clocks since reset
         self.stamp = f"expr /d sim_ticks;{BUSY}" if measured else "expr /d sim_ticks"
         self.command("uart0_check_often=1")
-        self.command("var odd\nvar heard\nvar spoil\nvar every\nodd=0\nheard=0\nspoil=0\nevery=0xffffffff")
-        self.watch(f"bits w 0x{RI_BIT:x}", f"heard=heard+RI;RB8=({PARITY})^odd^((heard==spoil)|((heard%every)==0));"
+        self.command("var odd\nvar heard\nvar up\nvar spoil\nvar every\nodd=0\nheard=0\nup=0\nspoil=0\nevery=0xffffffff")
+        # up: this octet has been counted in heard; a driver that clears RI behind its own octets has REN off
+        self.watch(f"bits w 0x{RI_BIT:x}", f"heard=heard+(RI|((up^1)&REN));up=RI;RB8=({PARITY})^odd^((heard==spoil)|((heard%every)==0));"
                    f"expr /d 810000+RI;{self.stamp}")
-        # what is written while an interrupt is being entered goes unseen: the ninth bit is supplied again where SBUF is read
-        self.watch(f"sfr r 0x{SBUF:x}", f"RB8=({PARITY})^((heard==spoil)|((heard%every)==0))")
+        # what is written while an interrupt is being entered goes unseen: the octet is counted, and the ninth bit supplied
+        # again, where SBUF is read
+        self.watch(f"sfr r 0x{SBUF:x}", f"heard=heard+(up^1);up=1;RB8=({PARITY})^((heard==spoil)|((heard%every)==0))")
         self.watch(f"sfr w 0x{SBUF:x}", f"expr /d 820000+TB8;{self.stamp}")
         self.command(f"set mem sfr 0x90 0x{~switches & 0x7f | 0x80:x}")
 

@@ -20,6 +20,7 @@ IO_ADDRESS, NV_ADDRESS, NV_SIZE = 0x8000, 0x7FE0, 32  # boards/87c51fb/wiring.h
 LOOP = "dp_test01_poll"  # entered once a turn of the main loop
 SYN = "phy_syn_ind_isr"  # the line has been silent for T_SYN
 TURNS = 3                # of the main loop, and what a telegram has set going is done
+SINCE = "expr /L since=sim_ticks"  # what is said is a letter, which is not taken for a note
 PATIENCE = 60            # seconds of the host's time for what is done at once
 
 
@@ -94,7 +95,7 @@ class Board(s51.Chip):
 
     def until_later(self, cycles, label=LOOP):
         """Lines that run until label is entered so much later; LOOP: a turn of the main loop begins."""
-        return "since=sim_ticks", *self.until(label, f"1 if sim_ticks-since>={int(cycles * s51.CLOCKS)}")
+        return SINCE, *self.until(label, f"1 if sim_ticks-since>={int(cycles * s51.CLOCKS)}")
 
     def ms(self, n):
         self.do(*self.until_later(n * self.cycles_per_ms), seconds=PATIENCE + n // 20)
@@ -147,9 +148,10 @@ class Board(s51.Chip):
         came, fetched = 0, 0
         while came < last or fetched < came:
             since = max(0, int((last - self.now) * s51.CLOCKS))
-            self.do("since=sim_ticks", *self.until_event(f"bits w 0x{s51.RI_BIT:x} 1 if sim_ticks-since>={since}"))
-            came = max((t for kind, value, t in self.log if kind == "RI" and value == 1), default=0)
+            self.do(SINCE, *self.until_event(f"bits w 0x{s51.RI_BIT:x} 1 if sim_ticks-since>={since}"))
             fetched = max((t for kind, value, t in self.log if kind == "RI" and value == 0), default=0)
+            came = max((t for kind, value, t in self.log if kind == "RI" and value == 1), default=0)
+            came = max(came, fetched - 12)  # where it has not been seen: arrivals()
         end = came + bits * self.bit
         while end - self.now > self.bit:
             self.do(f"step {int((end - self.now) / 2)}")  # an instruction takes two cycles or less, four at most

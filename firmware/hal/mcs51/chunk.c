@@ -96,12 +96,7 @@ void serial_isr(void) __interrupt(4) __using(2) __naked
         jbc _first,00010$
         mov _err,#4             ; HAL_ERR_OVERRUN: no room for the next one
     00007$:
-        lcall _keep_isr
-        clr _hear
-        clr _begun
-        mov _bad_at,r0
-        setb _bad
-        setb _IE1
+        lcall _bad_isr
         sjmp 00004$
     00008$:
         jnb _RI,00009$
@@ -179,6 +174,29 @@ void keep_isr(void) __naked
     __endasm;
 }
 
+/* The octet in R0's place is bad. A silence that has ended there and has not been told is none: T_SYN and T_SDR end with
+ * a good octet's begin. Called in bank 2. */
+void bad_isr(void) __naked
+{
+    __asm
+        lcall _keep_isr
+        jnb _first,00001$
+        clr _first
+        mov r3,#KEPT
+    00001$:
+        mov a,r0
+        cjne a,_mark,00002$
+        clr _due
+    00002$:
+        clr _hear
+        clr _begun
+        mov _bad_at,r0
+        setb _bad
+        setb _IE1
+        ret
+    __endasm;
+}
+
 void mark_isr(void) __naked
 {
     __asm
@@ -217,20 +235,24 @@ void silent_isr(void) IN_ISR __naked
 static void open_isr(void) IN_ISR __naked
 {
     __asm
+        mov a,(_phy_rx + 4)     ; waiting
+        orl a,(_phy_rx + 2)
         clr _EA
+        jz 00003$
         mov a,_taken
         cjne a,_in,00004$
+    00003$:
         jb _full,00004$
         jb _due,00004$
         jb _bad,00004$
         setb _rest
         mov _taken,#_kept
-        mov a,(_phy_rx + 4)     ; waiting
+        mov a,(_phy_rx + 4)
         jnz 00001$
         clr _store
         clr _hear
         mov a,(_phy_rx + 2)
-        jz 00004$
+        jz 00004$               ; deaf: what has been kept is for nobody
         jb _burst,00001$
         mov _in,_phy_rx
         mov _page,(_phy_rx + 1)
@@ -254,8 +276,9 @@ static void open_isr(void) IN_ISR __naked
     __endasm;
 }
 
-/* In the order in which it has come: the chunk, octets kept, a bad one or a silence. -> Only octets of a chunk are left to
- * tell: the service is quicker at that. */
+/* In the order in which it has come: the chunk, octets kept, a bad one or a silence. What was kept right before a bad octet
+ * is dropped with it: while it was looked at the next request might be over. -> Only octets of a chunk are left to tell:
+ * the service is quicker at that. */
 static bool tell_isr(void) IN_ISR
 {
     volatile PAGED uint8_t *next;
@@ -267,21 +290,23 @@ static bool tell_isr(void) IN_ISR
     stop = in;
     if (due)
         stop = mark;
-    if (bad && bad_at <= stop)
-        stop = bad_at;
-    if (taken != stop) {
+    if (bad && bad_at <= stop) {
+        bad = 0;
+        taken = bad_at;
+        line_octet_isr(0, err);
+    } else if (taken != stop) {
         if (!phy_rx.waiting && !phy_rx.left) {
             taken = stop; /* deaf */
             return false;
         }
-        if (!phy_rx.waiting && !bad && !due)
+        if (!phy_rx.waiting && !bad) {
+            if (due)
+                IE1 = 1; /* up to its mark */
             return true;
+        }
         next = (volatile PAGED uint8_t *)taken;
         taken++;
         line_octet_isr(*next, 0);
-    } else if (bad && stop == bad_at) {
-        bad = 0;
-        line_octet_isr(0, err);
     } else if (due) {
         due = 0;
         if (phy_rx.waiting && in != stop)
@@ -399,12 +424,22 @@ void service_isr(void) __interrupt(2) __using(1) __naked
         ljmp 00001$
     00014$:
         clr _RI
+        mov _TL0,_reload_low
+        mov _TH0,_reload_high
+        clr _TF0
+        setb _ET0
+        clr _due                ; as in bad_isr()
         mov _err,#1             ; HAL_ERR_PARITY
         mov _bad_at,_in
         clr _hear
         setb _bad
         setb _IE1
         ljmp 00009$
+    00041$:
+        setb _IE1               ; they came before the service was entered
+        sjmp 00042$
+    00034$:
+        ljmp 00004$
     00031$:
         setb _ES
         clr _full
@@ -412,6 +447,9 @@ void service_isr(void) __interrupt(2) __using(1) __naked
         lcall _phy_chunk_ind_isr
         mov a,(_phy_rx + 2)
         jz 00011$               ; deaf, or an answer waits
+        jb _bad,00041$
+        jb _due,00041$
+    00042$:
         mov r7,a
         mov a,_few
         clr c
@@ -480,11 +518,10 @@ void service_isr(void) __interrupt(2) __using(1) __naked
         sjmp 00024$
     00035$:
         ljmp 00026$
-    00034$:
-        ljmp 00004$
     00011$:
         jb _sending,00040$
         jnb _due,00012$         ; the answer has not to wait any more
+        jb _bad,00012$
         mov a,_taken
         cjne a,_in,00012$
         clr _due
