@@ -216,17 +216,8 @@ class Follower:
         """What is known behind an instruction."""
         now, op, args = self.now, line.op, line.args
         first, second = (args + ("", ""))[:2]
-        if op == "mov" and first == "dptr":
-            found = constant(second)
-            if found and found[0] == "#":
-                now.held["dpl"], now.held["dph"] = halves("", found[1])
-            elif found and found[0] == "low":
-                now.held["dpl"], now.held["dph"] = halves(*found[1:])
-            else:
-                now.forget(DPTR)
-        elif op == "inc" and first == "dptr":
-            base, offset = pointer(now.of("dpl"), now.of("dph"))
-            now.held["dpl"], now.held["dph"] = halves(base, offset + 1)
+        if first == "dptr" and op in ("mov", "inc"):
+            self._point(op, second)
         elif op in ("mov", "movx"):
             self._move(line, first, second)
         elif op in PURE and first == "a" and self.value(second):
@@ -256,6 +247,18 @@ class Follower:
             now.put("c", ("#", total >> 8))
         else:
             self._other(line, first)
+
+    def _point(self, op, second):
+        now, found = self.now, constant(second)
+        if op == "inc":
+            base, offset = pointer(now.of("dpl"), now.of("dph"))
+            now.held["dpl"], now.held["dph"] = halves(base, offset + 1)
+        elif found and found[0] == "#":
+            now.held["dpl"], now.held["dph"] = halves("", found[1])
+        elif found and found[0] == "low":
+            now.held["dpl"], now.held["dph"] = halves(*found[1:])
+        else:
+            now.forget(DPTR)
 
     @staticmethod
     def _register(operand):
