@@ -150,14 +150,15 @@ static void an_sd2_telegram_has_le_octets_of_body(void)
     BODY("88 82 6D 3C 3E");
 }
 
-/* The one of both that is awaited is known beforehand, the other one is looked at. */
+/* What is as awaited is known beforehand, all of it or the header; another one is looked at. */
 static void the_header_is_shown_before_the_end_of_a_telegram_that_was_not_awaited(void)
 {
+    const bool other_saps = awaited == &awaits[3] || awaited == &awaits[4];
     const uint8_t looked_at = awaited == &awaits[2] ? 0 : 1;
 
     fake_silence();
     hear("68 05 05 68 88 82 6D 3C 3E");
-    TEST_ASSERT_EQUAL(looked_at, headers);
+    TEST_ASSERT_EQUAL(other_saps ? 0 : looked_at, headers);
     hear("F1 16");
     TEST_ASSERT_EQUAL(looked_at, saps);
     TEST_ASSERT_EQUAL(1, telegrams);

@@ -238,35 +238,58 @@ static uint8_t st_saps_isr(void) IN_ISR
     return want_rest_isr(ROOM_BEHIND(KEPT_LEN));
 }
 
-/* Not the telegram awaited, and that was seen by DA or by one of the `more` octets that are there behind it. */
+/* The header awaited, and other SAPs: `there` of them have come. */
+static uint8_t st_other_saps_isr(uint8_t there) IN_ISR
+{
+    fdl_plan.stage = FDL_UNKNOWN;
+    phy_rx.left = (uint8_t)((missing <= ONLY_SAPS ? missing : KEPT_LEN - HEADER_LEN) - there);
+    return phy_rx.left ? RX_SAPS : st_saps_isr();
+}
+
+/* The same with another SA or FC: `there` of them have come. */
+static uint8_t st_other_header_isr(uint8_t there) IN_ISR
+{
+    uint8_t next;
+
+    phy_rx.left = 1;
+    if (there == 1)
+        return RX_HEADER;
+    next = st_header_isr();
+    phy_rx.left = (uint8_t)(phy_rx.left - (uint8_t)(there - (HEADER_LEN - 1u)));
+    return phy_rx.left ? next : st_saps_isr();
+}
+
+/* Not the telegram awaited, and that was seen by DA or by one of the `more` octets that are there behind it. What was as
+ * awaited is not read again, unless main has changed what the plan was made from. */
 static uint8_t st_other_body_isr(void) IN_ISR
 {
     const uint8_t more = (uint8_t)(fdl_header.len + TAIL_LEN - 1u - phy_rx.left);
-    uint8_t next;
 
     good_sd = true;
-    phy_rx.left = 0;
-    next = da_isr();
-    if (more == 0)
-        return next;
-    if (next != RX_HEADER) { /* main has changed the address */
-        phy_rx.left = 0;
-        return RX_SYN;
+    if (fdl_plan.stage == FDL_AWAITED && more) {
+        fdl_plan.awaited = 0;
+        missing = (uint8_t)(fdl_header.len - HEADER_LEN + TAIL_LEN);
+        if (more >= HEADER_LEN)
+            return st_other_saps_isr((uint8_t)(more - (HEADER_LEN - 1u)));
+        fdl_plan.stage = FDL_OTHERS;
+        return st_other_header_isr(more);
     }
-    phy_rx.left = 1;
-    if (more == 1)
-        return RX_HEADER;
-    next = st_header_isr();
-    phy_rx.left = (uint8_t)(phy_rx.left - (uint8_t)(more - (HEADER_LEN - 1u)));
-    return phy_rx.left ? next : st_saps_isr();
+    fdl_plan.stage = FDL_OTHERS;
+    phy_rx.left = 0;
+    if (!more)
+        return da_isr();
+    if (da_isr() == RX_HEADER)
+        return st_other_header_isr(more);
+    phy_rx.left = 0; /* main has changed the address */
+    return RX_SYN;
 }
 
 /* Not the telegram awaited. */
 static uint8_t st_another_isr(void) IN_ISR
 {
-    fdl_plan.stage = FDL_OTHERS;
     if (phy_rx.left)
         return st_other_body_isr();
+    fdl_plan.stage = FDL_OTHERS;
     if (fdl_rx_buf[0] == FDL_SD2)
         return st_sd2_head_isr();
     return st_sd_isr();
