@@ -9,10 +9,10 @@ import sys
 
 import s51_states
 from s51_cases import LONG
-from s51_states import CASES, LATE, LINES, Line
+from s51_states import CASES, LINES, Line
 
 MORE = [Line(9600, 78, 24, "fieldling-dp-24mhz"), Line(19200, 39, 24, "fieldling-dp-24mhz"),
-        Line(93750, 8, 24, "fieldling-dp-24mhz"), Line(187500, 4, 24, "fieldling-dp-24mhz", max_t_sdr=LATE)]
+        Line(93750, 8, 24, "fieldling-dp-24mhz"), Line(187500, 4, 24, "fieldling-dp-24mhz")]
 
 if __name__ == "__main__":
     sys.exit(s51_states.main(LINES + MORE, CASES + LONG, sys.argv[1:]))

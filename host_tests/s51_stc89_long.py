@@ -8,7 +8,7 @@ import sys
 import s51_states
 from s51_stc89 import dp_line
 
-LINES = [dp_line(9600, 78), dp_line(19200, 39), dp_line(93750, 8), dp_line(187500, 4)._replace(max_t_sdr=s51_states.LATE)]
+LINES = [dp_line(9600, 78), dp_line(19200, 39), dp_line(93750, 8), dp_line(187500, 4)]
 
 if __name__ == "__main__":
     sys.exit(s51_states.main(LINES, s51_states.CASES, sys.argv[1:]))

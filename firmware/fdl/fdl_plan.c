@@ -246,6 +246,7 @@ static void number_isr(void) IN_ISR
 
 void fdl_da_isr(uint8_t da) IN_ISR
 {
+    fdl_plan.stage = FDL_UNKNOWN;
     fdl_plan.awaited = 0;
     if (da != fdl_header.da) {
         fdl_header.da = da;
@@ -260,9 +261,10 @@ bool fdl_header_isr(void) IN_ISR
     const uint8_t sa = *at++;
     const uint8_t fc = *at;
 
-    if (!(fc & FDL_FC_REQUEST))
+    if (!(fc & FDL_FC_REQUEST)) {
+        fdl_plan.stage = FDL_OTHERS;
         return false;
-    fdl_plan.stage = FDL_UNKNOWN;
+    }
     if (sa != fdl_header.sa || ((fc ^ fdl_header.fc) & (uint8_t)~(FDL_FC_FCB | FDL_FC_FCV))) {
         fdl_plan.same = false;
         fdl_header.sa = sa;
@@ -335,6 +337,7 @@ static void model_isr(void) IN_ISR
 
 bool fdl_await_isr(void) IN_ISR
 {
+    fdl_plan.stage = FDL_IDLE;
     if (fdl_plan.made < FDL_LE_MIN || fdl_plan.made > FDL_BODY_MAX)
         return false;
     fdl_header.len = fdl_plan.made;

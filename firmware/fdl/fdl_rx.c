@@ -241,7 +241,6 @@ static uint8_t st_saps_isr(void) IN_ISR
 /* The header awaited, and other SAPs: `there` of them have come. */
 static uint8_t st_other_saps_isr(uint8_t there) IN_ISR
 {
-    fdl_plan.stage = FDL_UNKNOWN;
     phy_rx.left = (uint8_t)((missing <= ONLY_SAPS ? missing : KEPT_LEN - HEADER_LEN) - there);
     return phy_rx.left ? RX_SAPS : st_saps_isr();
 }
@@ -267,11 +266,11 @@ static uint8_t st_other_body_isr(void) IN_ISR
 
     good_sd = true;
     if (fdl_plan.stage == FDL_AWAITED && more) {
+        fdl_plan.stage = FDL_UNKNOWN;
         fdl_plan.awaited = 0;
         missing = (uint8_t)(fdl_header.len - HEADER_LEN + TAIL_LEN);
         if (more >= HEADER_LEN)
             return st_other_saps_isr((uint8_t)(more - (HEADER_LEN - 1u)));
-        fdl_plan.stage = FDL_OTHERS;
         return st_other_header_isr(more);
     }
     fdl_plan.stage = FDL_OTHERS;
