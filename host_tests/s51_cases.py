@@ -156,6 +156,7 @@ case("T93 after 1000 chunks of noise the next good telegram is answered", 1000, 
 def one_bit(bench, telegram):
     """Each bit of each octet wrong, its parity bit, too: the octet comes with wrong parity. HD 4: nothing is answered."""
     octets = telegram.split()
+    bench.step(STILL_ANSWERS)  # or the baud search goes on, and all that follows is played at another rate
     for k, octet in enumerate(octets):
         for bit in range(9):
             wrong = f"{int(octet, 16) ^ (1 << bit & 0xFF):02X}!"
@@ -166,6 +167,7 @@ def one_bit(bench, telegram):
 def two_bits(bench, telegram):
     """Two data bits of one octet wrong: parity is right, and FCS, ED or LE must tell."""
     octets = telegram.split()
+    bench.step(STILL_ANSWERS)  # or the baud search goes on, and all that follows is played at another rate
     for k, octet in enumerate(octets):
         for high in range(8):
             for low in range(high):
