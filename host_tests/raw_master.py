@@ -35,7 +35,10 @@ class RawMaster:
         """What comes within so long, at least n octets; b"" if nothing does."""
         heard, end = b"", time.monotonic() + seconds
         while len(heard) < n and select.select([self.fd], [], [], max(0, end - time.monotonic()))[0]:
-            more = os.read(self.fd, 4096)
+            try:
+                more = os.read(self.fd, 4096)
+            except BlockingIOError:  # what was there has been dropped meanwhile: it was for the master before
+                continue
             if not more:
                 raise AssertionError("the line was hung up")
             heard += more
